@@ -1,1 +1,14 @@
-//! See the crate's description; its rooms follow.
+//! A human motion over time: types, file formats, and any humanoid skeleton mapped to the body.
+//!
+//! Inside, lengths are metres, angles radians, axes right-handed with **Y up**; readers convert
+//! at the door and writers convert back.
+
+pub mod error;
+pub mod frame_rate;
+pub mod limits;
+pub mod motion;
+
+pub use error::Error;
+pub use frame_rate::FrameRate;
+pub use limits::Limits;
+pub use motion::{Motion, MotionShape, ShapeSpace};

@@ -1,0 +1,73 @@
+//! What can go wrong with a motion or its file.
+
+use std::path::PathBuf;
+
+/// Why a motion could not be read, made, mapped or written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The operating system refused.
+    #[error("{path}: {source}")]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A frame rate that is not a positive number.
+    #[error("The frame rate must be a positive number of frames a second, found {found}.")]
+    FrameRate {
+        /// The value found.
+        found: f64,
+    },
+    /// Arrays of a motion disagree in length.
+    #[error(
+        "A motion of {frames} frames and {joints} joints needs {expected} rotations, found {found}."
+    )]
+    RotationCount {
+        /// Frames of the root translation.
+        frames: usize,
+        /// Joints a frame.
+        joints: usize,
+        /// frames x joints.
+        expected: usize,
+        /// Rotations given.
+        found: usize,
+    },
+    /// A value that is not a finite number, or a rotation of no length.
+    #[error("Frame {frame}, joint {joint}: {what} is not a finite number or not a rotation.")]
+    NotFinite {
+        /// Frame, from 0.
+        frame: usize,
+        /// Joint's name.
+        joint: String,
+        /// What was looked at.
+        what: &'static str,
+    },
+    /// The content of a file is not what its format demands.
+    #[error("{path}, {place}: expected {expected}, found {found}.")]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// Line, frame, key or byte.
+        place: String,
+        /// What the format demands.
+        expected: String,
+        /// What the file says.
+        found: String,
+    },
+    /// A file that asks for more than [`crate::Limits`] allow.
+    #[error(
+        "{path}: {what} is {found}, above the limit of {limit}; raise the limit if the file is right."
+    )]
+    Limit {
+        /// The file.
+        path: PathBuf,
+        /// What is too large.
+        what: &'static str,
+        /// Asked for.
+        found: u64,
+        /// Allowed.
+        limit: u64,
+    },
+}
