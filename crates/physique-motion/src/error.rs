@@ -44,6 +44,30 @@ pub enum Error {
         /// What was looked at.
         what: &'static str,
     },
+    /// A skeleton that is not a tree of finite bones.
+    #[error("Joint {index} ({joint}): expected {expected}.")]
+    Skeleton {
+        /// Joint's name.
+        joint: String,
+        /// Joint's index.
+        index: usize,
+        /// What a skeleton demands.
+        expected: &'static str,
+    },
+    /// Arrays of a clip disagree in length.
+    #[error(
+        "A clip of {joints} joints, {moved} of them distinct joints that move, needs [frames][{joints}] rotations and [frames][{moved}] translations, found {rotations} and {translations}."
+    )]
+    ClipArrays {
+        /// Joints of the skeleton.
+        joints: usize,
+        /// Rotations given.
+        rotations: usize,
+        /// Joints said to move within their parent.
+        moved: usize,
+        /// Translations given.
+        translations: usize,
+    },
     /// The content of a file is not what its format demands.
     #[error("{path}, {place}: expected {expected}, found {found}.")]
     Format {

@@ -3,12 +3,16 @@
 //! Inside, lengths are metres, angles radians, axes right-handed with **Y up**; readers convert
 //! at the door and writers convert back.
 
+pub mod clip;
 pub mod error;
 pub mod frame_rate;
 pub mod limits;
 pub mod motion;
+pub mod skeleton;
 
+pub use clip::{Conversion, SkeletonClip, UpAxis};
 pub use error::Error;
 pub use frame_rate::FrameRate;
 pub use limits::Limits;
 pub use motion::{Motion, MotionShape, ShapeSpace};
+pub use skeleton::{Skeleton, SkeletonJoint, SkeletonPose};
