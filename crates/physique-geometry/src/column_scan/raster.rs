@@ -1,0 +1,136 @@
+use super::crossing::Crossing;
+use super::lattice::{Lattice, SUBCELL_BITS, Snapped};
+use crate::{Error, Triangles};
+
+/// Scratch and result of drawing triangles onto the lattice.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Raster {
+    /// Triangles whose box holds a line.
+    candidates: Vec<u32>,
+    /// Lines of the crossings; the first `count` are valid.
+    lines: Vec<u32>,
+    /// The crossings; the first `count` are valid.
+    crossings: Vec<Crossing>,
+    count: usize,
+}
+
+impl Raster {
+    /// Finds all crossings of `triangles` with the lines of the lattice.
+    pub(super) fn draw(
+        &mut self,
+        triangles: &Triangles,
+        snapped: &[Snapped],
+        lattice: &Lattice,
+        most_crossings: u64,
+    ) -> Result<(), Error> {
+        let found = self.cull(triangles, snapped);
+        if found > most_crossings {
+            return Err(Error::TooManyCrossings {
+                found,
+                limit: most_crossings,
+            });
+        }
+        // One spare place: a rejected crossing is written and then overwritten.
+        let room = found as usize + 1;
+        if self.lines.len() < room {
+            self.lines.resize(room, 0);
+            self.crossings.resize(room, Crossing::default());
+        }
+        self.cross(triangles, snapped, lattice.lines[0]);
+        Ok(())
+    }
+
+    /// Line and crossing of all that was found, in order of the triangles.
+    pub(super) fn crossings(&self) -> (&[u32], &[Crossing]) {
+        (&self.lines[..self.count], &self.crossings[..self.count])
+    }
+
+    /// Lists the triangles whose box holds a line; returns how many lines the boxes hold together.
+    fn cull(&mut self, triangles: &Triangles, snapped: &[Snapped]) -> u64 {
+        self.candidates.resize(triangles.len() + 1, 0);
+        let (mut kept, mut found) = (0, 0);
+        for (triangle, corners) in triangles.corners().iter().enumerate() {
+            let bounds = Bounds::of(corners.map(|v| snapped[v as usize].across));
+            let lines = bounds.line_count();
+            // Without a branch, which would be mispredicted for every other triangle.
+            self.candidates[kept] = triangle as u32;
+            kept += usize::from(lines > 0);
+            found += lines;
+        }
+        self.candidates.truncate(kept);
+        found
+    }
+
+    /// Tests the lines in the boxes of the candidates.
+    fn cross(&mut self, triangles: &Triangles, snapped: &[Snapped], lines_aside: usize) {
+        let mut count = 0;
+        for &triangle in &self.candidates {
+            let [a, b, c] = triangles.corners()[triangle as usize].map(|v| snapped[v as usize]);
+            let bounds = Bounds::of([a.across, b.across, c.across]);
+            let owns = [owns_ties(b, c), owns_ties(c, a), owns_ties(a, b)];
+            for v in bounds.first[1]..=bounds.last[1] {
+                for u in bounds.first[0]..=bounds.last[0] {
+                    let [to_a, to_b, to_c] = [a, b, c].map(|corner| {
+                        [
+                            corner.across[0] - (u << SUBCELL_BITS),
+                            corner.across[1] - (v << SUBCELL_BITS),
+                        ]
+                    });
+                    // Twice the signed areas of line and edge: the line's barycentric coordinates.
+                    let areas = [cross(to_b, to_c), cross(to_c, to_a), cross(to_a, to_b)];
+                    let area = areas[0] + areas[1] + areas[2];
+                    let [x, y, z] = [0, 1, 2].map(|k| areas[k] + i64::from(owns[k]) > 0);
+                    let meets = (x == y) & (y == z) & (area != 0);
+
+                    let [_, of_b, of_c] = areas.map(|part| part as f32 / area as f32);
+                    let depth = a.depth + (of_b * (b.depth - a.depth) + of_c * (c.depth - a.depth));
+                    self.lines[count] = v as u32 * lines_aside as u32 + u as u32;
+                    // Counter-clockwise seen against the line: its outside is where the line goes.
+                    self.crossings[count] =
+                        Crossing::new(depth.round_ties_even() as i32, triangle, x);
+                    count += usize::from(meets);
+                }
+            }
+        }
+        self.count = count;
+    }
+}
+
+/// The lines in a triangle's box: `first..=last` in both directions, empty if last < first.
+struct Bounds {
+    first: [i32; 2],
+    last: [i32; 2],
+}
+
+impl Bounds {
+    #[inline]
+    fn of([a, b, c]: [[i32; 2]; 3]) -> Self {
+        let least = |k: usize| a[k].min(b[k]).min(c[k]);
+        let most = |k: usize| a[k].max(b[k]).max(c[k]);
+        let up = (1 << SUBCELL_BITS) - 1;
+        Self {
+            first: [0, 1].map(|k| (least(k) + up) >> SUBCELL_BITS),
+            last: [0, 1].map(|k| most(k) >> SUBCELL_BITS),
+        }
+    }
+
+    #[inline]
+    fn line_count(&self) -> u64 {
+        let [width, height] = [0, 1].map(|k| (self.last[k] + 1 - self.first[k]).max(0) as u64);
+        width * height
+    }
+}
+
+/// Twice the signed area between a line and an edge, exact: both ends lie within 2^22 subcells.
+#[inline]
+fn cross(p: [i32; 2], q: [i32; 2]) -> i64 {
+    i64::from(p[0]) * i64::from(q[1]) - i64::from(p[1]) * i64::from(q[0])
+}
+
+/// Whether a line exactly on the edge counts as on its left: the sign of its area after the line was
+/// shifted by an infinitesimal step along u and a yet smaller one along v.
+#[inline]
+fn owns_ties(from: Snapped, to: Snapped) -> bool {
+    let [u, v] = [0, 1].map(|k| to.across[k] - from.across[k]);
+    v < 0 || (v == 0 && u > 0)
+}
