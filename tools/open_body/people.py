@@ -1,0 +1,120 @@
+"""Draws adults: who they are is drawn at random, how the sliders must stand for it is solved.
+
+Stature and body mass index are drawn from stated distributions; the height and weight sliders are then
+solved so that the body has them. So every person is different, heavy and slim ones included, and the
+distribution is ours, not the sliders'.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+import sliders
+
+SEED = 20260101
+PEOPLE_OF_EACH_SEX = 1000
+DENSITY = 985.0  # kg/m3, the whole living body, lungs half full
+
+STATURE = {"male": (1.755, 0.072), "female": (1.625, 0.066)}  # mean and deviation in metres
+STATURE_RANGE = (1.45, 2.05)
+BMI_MEDIAN, BMI_LOG_DEVIATION = 25.0, 0.20
+BMI_RANGE = (17.0, 40.0)
+
+# The path along which a body gains mass: first the weight slider rises from slim to its end, the muscle
+# slider where it was drawn; then, for bodies that need more, the weight slider goes a little beyond its
+# end while muscle wanes. Slider 0..1; beyond it MakeHuman's targets are extrapolated.
+WEIGHT_AT_SLIMMEST, WEIGHT_AT_TURN, WEIGHT_AT_HEAVIEST = -0.15, 1.0, 1.35
+BISECTIONS = 18
+
+
+@dataclass
+class People:
+    coefficients: np.ndarray  # (people, targets)
+    male: np.ndarray  # (people,) bool
+    sliders: dict
+    stature: np.ndarray  # m
+    bmi: np.ndarray  # kg/m2
+    years: np.ndarray
+    unreached: int  # how many bodies ended at an end of the path
+
+
+def drawn_people():
+    """The drawn traits: sliders but weight and height, stature and BMI. Rounded: equal on every machine."""
+    rng = np.random.default_rng(SEED)
+    count = 2 * PEOPLE_OF_EACH_SEX
+    male = np.arange(count) < PEOPLE_OF_EACH_SEX
+    androgyny = np.clip(np.abs(rng.normal(0, 0.12, count)), 0, 0.4)
+    mean, deviation = np.where(male, *[np.array(STATURE[sex])[:, None] for sex in ("male", "female")])
+    traits = {
+        "sex": np.where(male, androgyny, 1 - androgyny),
+        "age": rng.beta(1.2, 1.6, count),
+        "muscle": rng.beta(1.6, 1.6, count),
+        "proportions": rng.random(count),
+        "cup": rng.beta(2, 2, count),
+        "firmness": rng.beta(2, 2, count),
+        "ancestry": rng.dirichlet([1, 1, 1], count),
+        "stature": np.clip(rng.normal(mean, deviation), *STATURE_RANGE),
+        "bmi": _truncated_lognormal(rng, count),
+    }
+    return male, {name: np.round(values, 6) for name, values in traits.items()}
+
+
+def _truncated_lognormal(rng, count):
+    values = np.empty(0)
+    while len(values) < count:
+        more = BMI_MEDIAN * np.exp(rng.normal(0, BMI_LOG_DEVIATION, count))
+        values = np.concatenate([values, more[(more > BMI_RANGE[0]) & (more < BMI_RANGE[1])]])
+    return values[:count]
+
+
+def volumes(vertices, triangles):
+    """Signed volumes of closed meshes (..., vertices, 3)."""
+    a, b, c = (vertices[..., triangles[:, k], :] for k in range(3))
+    return np.einsum("...i,...i->...", a, np.cross(b, c)).sum(axis=-1) / 6
+
+
+def statures(vertices):
+    return np.ptp(vertices[..., 1], axis=-1)
+
+
+def draw(words, body, triangles):
+    """Draws the people and solves their sliders on the T-posed LinearBody."""
+    male, traits = drawn_people()
+    solved = {name: traits[name] for name in traits if name not in ("stature", "bmi")}
+    heights = np.ascontiguousarray(body.vertices[:, :, 1])
+
+    def at(progress):
+        """Sliders, coefficients and BMI of everyone at `progress` 0..2 along the path, stature solved."""
+        beyond = np.clip(progress - 1, 0, 1)
+        rise = np.clip(progress, 0, 1)
+        weight = WEIGHT_AT_SLIMMEST + rise * (WEIGHT_AT_TURN - WEIGHT_AT_SLIMMEST)
+        weight = weight + beyond * (WEIGHT_AT_HEAVIEST - WEIGHT_AT_TURN)
+        setting = dict(solved, weight=weight, muscle=solved["muscle"] * (1 - beyond))
+        ends = [sliders.coefficients(words, dict(setting, height=np.full(len(weight), h))) for h in (0.0, 1.0)]
+        low, high = (_stature(heights, end) for end in ends)
+        setting["height"] = (traits["stature"] - low) / (high - low)
+        coefficients = ends[0] + setting["height"][:, None] * (ends[1] - ends[0])
+        return setting, coefficients, _bmi(body, coefficients, triangles)
+
+    below, above = np.zeros(len(male)), np.full(len(male), 2.0)
+    for _ in range(BISECTIONS):
+        middle = (below + above) / 2
+        heavier = at(middle)[2] > traits["bmi"]
+        below, above = np.where(heavier, below, middle), np.where(heavier, middle, above)
+    setting, coefficients, bmi = at((below + above) / 2)
+    years = sliders.YOUNG_YEARS + (sliders.OLD_YEARS - sliders.YOUNG_YEARS) * traits["age"]
+    unreached = int((np.abs(bmi - traits["bmi"]) > 0.01).sum())
+    return People(coefficients, male, setting, traits["stature"], bmi, years, unreached)
+
+
+def _stature(heights, coefficients):
+    mixed = heights[0] + coefficients @ heights[1:]
+    return np.ptp(mixed, axis=1)
+
+
+def _bmi(body, coefficients, triangles, chunk=100):
+    found = []
+    for start in range(0, len(coefficients), chunk):
+        vertices = body.mix(coefficients[start : start + chunk])
+        found.append(DENSITY * volumes(vertices, triangles) / statures(vertices) ** 2)
+    return np.concatenate(found)
