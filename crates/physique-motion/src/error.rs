@@ -94,4 +94,12 @@ pub enum Error {
         /// Allowed.
         limit: u64,
     },
+    /// An array of a file is broken or missing.
+    #[error("{path}: {source}")]
+    Array {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: crate::npz::ArrayError,
+    },
 }

@@ -3,11 +3,15 @@
 //! Inside, lengths are metres, angles radians, axes right-handed with **Y up**; readers convert
 //! at the door and writers convert back.
 
+pub mod amass;
 pub mod clip;
 pub mod error;
 pub mod frame_rate;
 pub mod limits;
 pub mod motion;
+pub mod npz;
+pub mod read;
+pub mod recording;
 pub mod skeleton;
 
 pub use clip::{Conversion, SkeletonClip, UpAxis};
@@ -15,4 +19,6 @@ pub use error::Error;
 pub use frame_rate::FrameRate;
 pub use limits::Limits;
 pub use motion::{Motion, MotionShape, ShapeSpace};
+pub use read::ReadOptions;
+pub use recording::Recording;
 pub use skeleton::{Skeleton, SkeletonJoint, SkeletonPose};
