@@ -173,7 +173,7 @@ mod tests {
         assert_eq!(Joint::Pelvis.tree_distance(Joint::Pelvis), 0);
         assert_eq!(Joint::LeftKnee.tree_distance(Joint::LeftHip), 1);
         assert_eq!(Joint::LeftHip.tree_distance(Joint::RightHip), 2);
-        assert_eq!(Joint::LeftWrist.tree_distance(Joint::RightWrist), 10);
+        assert_eq!(Joint::LeftWrist.tree_distance(Joint::RightWrist), 8);
         assert_eq!(Joint::Head.tree_distance(Joint::LeftFoot), 9);
     }
 }
