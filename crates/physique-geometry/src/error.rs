@@ -112,6 +112,15 @@ pub enum Error {
         spacing: f32,
     },
 
+    /// A position is so far from the origin that squares and cubes of it overflow.
+    #[error("a vertex is {distance} m away from the origin, expected at most {limit} m")]
+    TooFarForPairs {
+        /// Distance from the origin along an axis, in metres.
+        distance: f32,
+        /// The distance allowed, in metres.
+        limit: f32,
+    },
+
     /// The triangles together span more grid lines than allowed.
     #[error(
         "the triangles' boxes hold {found} line positions, expected at most {limit}: the spacing is \

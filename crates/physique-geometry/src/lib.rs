@@ -5,6 +5,7 @@
 //! * [`Triangles`]: the faces of a mesh, checked once.
 //! * [`ColumnScanner`]: volume that a closed surface covers once, twice or more often, exact along
 //!   parallel lines, told apart by pair of labels (body parts, to the floors above).
+//! * [`TrianglePairs`]: which triangles intersect, exactly.
 //! * [`shapes`]: spheres, boxes and tori with known volumes.
 //!
 //! Positions are `&[Vec3]` in metres; volumes are `f64` in cubic metres. Surfaces are oriented
@@ -12,8 +13,10 @@
 
 mod column_scan;
 mod error;
+pub mod exact;
 mod measure;
 pub mod shapes;
+mod triangle_pairs;
 mod triangles;
 
 pub use column_scan::{
@@ -23,4 +26,5 @@ pub use column_scan::{
 pub use error::Error;
 pub use measure::{signed_volume, vertex_normals};
 pub use shapes::Mesh;
+pub use triangle_pairs::{SharedVertices, TrianglePairs};
 pub use triangles::Triangles;
