@@ -1,0 +1,63 @@
+//! What a body costs: column scan, `sia` voxels and intersecting triangles of the open body
+//! (13,776 triangles) in four poses, one thread. Run with `cargo bench -p physique-geometry`.
+
+use divan::{Bencher, black_box};
+use physique_geometry::{ColumnScanner, PairOverlaps, ScanOptions, SharedVertices, TrianglePairs};
+
+#[path = "fixtures/open_body.rs"]
+mod open_body;
+
+use open_body::{OpenBody, POSES};
+
+fn main() {
+    divan::main();
+}
+
+#[divan::bench(args = POSES, consts = [10, 20])]
+fn covered_volumes<const MILLIMETRES: u32>(bencher: Bencher<'_, '_>, pose: &str) {
+    let body = OpenBody::load();
+    let positions = body.pose(pose);
+    let options = ScanOptions {
+        spacing: MILLIMETRES as f32 * 1e-3,
+        ..ScanOptions::default()
+    };
+    let mut scanner = ColumnScanner::new(&body.triangles, options).expect("closed");
+    bencher.bench_local(|| {
+        scanner
+            .scan(black_box(positions))
+            .expect("finite")
+            .volumes()
+    });
+}
+
+#[divan::bench(args = POSES)]
+fn overlaps_by_body_part(bencher: Bencher<'_, '_>, pose: &str) {
+    let body = OpenBody::load();
+    let positions = body.pose(pose);
+    let mut scanner = ColumnScanner::new(&body.triangles, ScanOptions::default()).expect("closed");
+    let mut pairs = PairOverlaps::new(22);
+    bencher.bench_local(|| {
+        pairs.clear();
+        let mut scan = scanner.scan(black_box(positions)).expect("finite");
+        scan.add_overlaps(&body.labels, &mut pairs)
+            .expect("one label a triangle");
+        scan.volumes()
+    });
+}
+
+#[divan::bench(args = POSES)]
+fn triangle_pairs(bencher: Bencher<'_, '_>, pose: &str) {
+    find_pairs(bencher, pose, SharedVertices::Skip);
+}
+
+#[divan::bench(args = POSES)]
+fn triangle_pairs_with_shared_vertices(bencher: Bencher<'_, '_>, pose: &str) {
+    find_pairs(bencher, pose, SharedVertices::Test);
+}
+
+fn find_pairs(bencher: Bencher<'_, '_>, pose: &str, shared: SharedVertices) {
+    let body = OpenBody::load();
+    let mut pairs = TrianglePairs::new(&body.triangles, body.pose("rest"), shared).expect("finite");
+    let positions = body.pose(pose);
+    bencher.bench_local(|| pairs.find(black_box(positions)).expect("finite").len());
+}
