@@ -4,6 +4,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 
 use glam::Vec3;
 
+use crate::render::ViewTransform;
 use crate::{Bounds, ViewError};
 
 /// How depth becomes a picture.
@@ -51,48 +52,84 @@ impl Camera {
     /// ```
     #[must_use]
     pub fn framing(bounds: &Bounds, view: &View, aspect: f32, margin: f32) -> Self {
-        let target = bounds.centre();
+        Self::framing_points(bounds.corners(), view, aspect, margin)
+    }
+
+    /// The nearest camera in the direction of a [`View`] that shows all of some points, with
+    /// equal margins left and right and equal margins above and below. See [`Camera::framing`].
+    #[must_use]
+    pub fn framing_points(
+        points: impl IntoIterator<Item = Vec3>,
+        view: &View,
+        aspect: f32,
+        margin: f32,
+    ) -> Self {
+        let axes = [view.up().cross(view.towards_eye()), view.up()];
         let towards_eye = view.towards_eye();
-        let up = view.up();
-        let right = up.cross(towards_eye);
-        let fill = 1.0 - 2.0 * margin.clamp(0.0, 0.45);
-        let offsets = bounds.corners().map(|corner| corner - target);
-        let depth = offsets
-            .iter()
-            .map(|d| d.dot(towards_eye))
-            .fold(0.0, f32::max);
-        let (distance, projection) = match view.field_of_view {
-            Some(vertical_field_of_view) => {
-                let tangent = (vertical_field_of_view * 0.5).tan() * fill;
-                let distance = offsets
-                    .iter()
-                    .map(|d| {
-                        let across = (d.dot(up).abs()).max(d.dot(right).abs() / aspect);
-                        across / tangent + d.dot(towards_eye)
-                    })
-                    .fold(0.05, f32::max);
-                (
-                    distance,
-                    Projection::Perspective {
-                        vertical_field_of_view,
-                    },
-                )
+        let half_tangent = view.field_of_view.map(|angle| (angle * 0.5).tan());
+        // The picture's half sizes at one metre of distance, or relative to its half height.
+        let fill = (1.0 - 2.0 * margin.clamp(0.0, 0.45)) * half_tangent.unwrap_or(1.0);
+        let half = [fill * aspect, fill];
+        // A point p is inside on an axis u if |p.u - shift| <= half (distance - p.towards_eye): two
+        // bounds on shift and half * distance, of which only the greatest over all points counts.
+        let mut reach = [[f32::NEG_INFINITY; 2]; 2];
+        let mut nearest = f32::NEG_INFINITY;
+        for point in points {
+            let forward = point.dot(towards_eye);
+            nearest = nearest.max(forward);
+            let lean = if half_tangent.is_some() { forward } else { 0.0 };
+            for axis in 0..2 {
+                let offset = point.dot(axes[axis]);
+                reach[axis][0] = reach[axis][0].max(offset + half[axis] * lean);
+                reach[axis][1] = reach[axis][1].max(-offset + half[axis] * lean);
             }
-            None => {
-                let half_height = offsets
-                    .iter()
-                    .map(|d| d.dot(up).abs().max(d.dot(right).abs() / aspect) / fill)
-                    .fold(0.01, f32::max);
-                (depth + 1.0, Projection::Orthographic { half_height })
-            }
+        }
+        let distances: [f32; 2] =
+            std::array::from_fn(|axis| (reach[axis][0] + reach[axis][1]) / (2.0 * half[axis]));
+        let shifts: [f32; 2] = std::array::from_fn(|axis| (reach[axis][0] - reach[axis][1]) * 0.5);
+        let distance = distances[0].max(distances[1]);
+        let across = axes[0] * shifts[0] + axes[1] * shifts[1];
+        let (depth, projection) = match view.field_of_view {
+            Some(vertical_field_of_view) => (
+                distance.max(nearest + 0.05),
+                Projection::Perspective {
+                    vertical_field_of_view,
+                },
+            ),
+            None => (
+                nearest + 1.0,
+                Projection::Orthographic {
+                    half_height: distance.max(0.01),
+                },
+            ),
         };
+        let eye = across + towards_eye * depth;
         Self {
-            eye: target + towards_eye * distance,
-            target,
-            up,
+            eye,
+            target: eye - towards_eye,
+            up: view.up(),
             projection,
             near: 0.02,
         }
+    }
+
+    /// The same camera moved by some metres.
+    #[must_use]
+    pub fn moved_by(&self, offset: Vec3) -> Self {
+        Self {
+            eye: self.eye + offset,
+            target: self.target + offset,
+            ..*self
+        }
+    }
+
+    /// Where a point lies in a picture of `width` x `height` pixels, in pixels from the top left
+    /// corner; `None` if it is behind the camera or the camera cannot see.
+    #[must_use]
+    pub fn project(&self, point: Vec3, width: u32, height: u32) -> Option<[f32; 2]> {
+        self.check().ok()?;
+        let (x, y, _) = ViewTransform::new(self, width, height).to_pixel(point)?;
+        Some([x, y])
     }
 
     pub(crate) fn check(&self) -> Result<(), ViewError> {

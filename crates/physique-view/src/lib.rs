@@ -7,7 +7,7 @@
 //!   ground shadows. Highlighted triangles (surface that passes through other surface) are red
 //!   and shine through the body.
 //! * [`ContactSheet`] shows moments of a motion side by side from several views, with times, a
-//!   title and a chart.
+//!   title and a chart; [`MotionStrip`] shows them in one picture along the path.
 //! * [`Image::write_png`] writes the result.
 //!
 //! Input is plain data: positions `[V]` and triangles `[T]`, metres, right-handed, Y up, a body
@@ -26,6 +26,7 @@ mod paint;
 mod render;
 mod scene;
 mod sheet;
+mod strip;
 mod write_png;
 
 pub use self::bounds::Bounds;
@@ -39,3 +40,4 @@ pub use self::paint::{Align, TextStyle, Weight, text_width};
 pub use self::render::Ground;
 pub use self::scene::{Dot, Polyline, Scene};
 pub use self::sheet::{ContactSheet, Frame, body_legend};
+pub use self::strip::MotionStrip;

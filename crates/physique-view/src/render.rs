@@ -1,6 +1,7 @@
 //! From a scene to a picture: find what is visible, then colour it.
 
 mod clip;
+mod contour;
 mod ground;
 mod light;
 mod overlay;
@@ -12,9 +13,9 @@ mod shadow;
 use rayon::prelude::*;
 
 pub use self::ground::Ground;
+pub(crate) use self::projection::ViewTransform;
 pub(crate) use self::shadow::GroundShadow;
 
-use self::projection::ViewTransform;
 use self::raster::{Facet, Samples, push_facets};
 use self::resolve::{Resolver, Shown};
 use crate::{Camera, Image, Scene, ViewError};
@@ -41,13 +42,13 @@ impl Scene<'_> {
         // What hides lines: the nearest surface at each pixel.
         let mut nearness = vec![f32::NEG_INFINITY; image.pixels().len()];
         let band_pixels = BAND_ROWS * width as usize;
-        image
+        let behind: Vec<_> = image
             .pixels_mut()
             .par_chunks_mut(band_pixels)
             .zip(nearness.par_chunks_mut(band_pixels))
             .zip(&bands)
             .enumerate()
-            .for_each(|(band, ((pixels, nearness), members))| {
+            .flat_map_iter(|(band, ((pixels, nearness), members))| {
                 let first_row = (band * BAND_ROWS) as u32;
                 let rows = pixels.len() / width as usize;
                 let mut surface = Samples::new(width, first_row, rows);
@@ -63,6 +64,7 @@ impl Scene<'_> {
                     surface: &surface,
                     highlight: highlight.as_ref(),
                 };
+                let mut behind = Vec::new();
                 for (index, (pixel, near)) in pixels.iter_mut().zip(nearness).enumerate() {
                     let column = index as u32 % width;
                     let row = first_row + index as u32 / width;
@@ -70,9 +72,18 @@ impl Scene<'_> {
                         .iter()
                         .copied()
                         .fold(f32::NEG_INFINITY, f32::max);
-                    *pixel = resolver.pixel(&shown, index, column, row);
+                    let shown = resolver.pixel(&shown, index, column, row);
+                    *pixel = shown.colour;
+                    behind.extend(
+                        shown
+                            .behind
+                            .map(|behind| (band * band_pixels + index, behind)),
+                    );
                 }
-            });
+                behind
+            })
+            .collect();
+        contour::darken(&view, &nearness, &behind, &mut image);
         overlay::draw(self, &view, &nearness, &mut image);
         Ok(image)
     }

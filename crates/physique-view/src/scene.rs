@@ -90,20 +90,34 @@ impl<'a> Scene<'a> {
     /// # Errors
     /// Those of [`Mesh::check`], and [`ViewError::TooManyTriangles`].
     pub fn add_mesh(&mut self, mesh: Mesh<'a>) -> Result<&mut Self, ViewError> {
-        mesh.check()?;
-        let found = self.triangle_count as usize + mesh.triangles.len();
-        // The greatest number stands for "no triangle".
-        let count = u32::try_from(found).ok().filter(|&count| count < u32::MAX);
-        let count = count.ok_or(ViewError::TooManyTriangles { found })?;
-        let normals = vertex_normals(mesh.positions, mesh.triangles);
-        self.meshes.push(PreparedMesh {
-            mesh,
-            normals,
-            first_triangle: self.triangle_count,
+        self.add_meshes([mesh])
+    }
+
+    /// Add several surfaces; the shadow is found once, for all.
+    ///
+    /// # Errors
+    /// Those of [`Scene::add_mesh`]; then none after the faulty one has been added.
+    pub fn add_meshes(
+        &mut self,
+        meshes: impl IntoIterator<Item = Mesh<'a>>,
+    ) -> Result<&mut Self, ViewError> {
+        let result = meshes.into_iter().try_for_each(|mesh| {
+            mesh.check()?;
+            let found = self.triangle_count as usize + mesh.triangles.len();
+            // The greatest number stands for "no triangle".
+            let count = u32::try_from(found).ok().filter(|&count| count < u32::MAX);
+            let count = count.ok_or(ViewError::TooManyTriangles { found })?;
+            let normals = vertex_normals(mesh.positions, mesh.triangles);
+            self.meshes.push(PreparedMesh {
+                mesh,
+                normals,
+                first_triangle: self.triangle_count,
+            });
+            self.triangle_count = count;
+            Ok(())
         });
-        self.triangle_count = count;
         self.cast_shadow();
-        Ok(self)
+        result.map(|()| self)
     }
 
     /// Add a line.

@@ -1,6 +1,6 @@
 //! The floor: a plane with a grid that fades, and the shadows on it.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use super::projection::{Ray, ViewTransform};
 use super::shadow::GroundShadow;
@@ -46,14 +46,13 @@ impl Ground {
         shadow: Option<&GroundShadow>,
     ) -> (Vec3, f32) {
         let point = ray.origin + ray.direction * distance;
-        let from_centre =
-            Vec3::new(point.x - self.centre[0], 0.0, point.z - self.centre[1]).length();
-        let fade = 1.0 - smoothstep(0.35, 1.0, from_centre / self.radius.max(1e-3));
-        if fade <= 0.0 {
+        let from_centre = Vec2::new(point.x - self.centre[0], point.z - self.centre[1]).length();
+        if from_centre >= self.radius {
             return (Vec3::ZERO, 0.0);
         }
+        let fade = 1.0 - smoothstep(0.35, 1.0, from_centre / self.radius);
         // A pixel's footprint: a metre across the line of sight, stretched along it by the slant.
-        let across = 1.0 / view.pixels_per_metre(point);
+        let across = view.metres_per_pixel(distance);
         let sight = ray.direction.normalize_or_zero();
         let stretch = 1.0 / (-sight.y).max(0.02);
         let level = Vec3::new(sight.x, 0.0, sight.z);
@@ -68,7 +67,7 @@ impl Ground {
         let floor = palette::FLOOR.linear();
         let line = palette::GRID.linear();
         let minor = 0.30 * lines(0.25, 0.003);
-        let major = 0.85 * lines(1.0, 0.008);
+        let major = 0.75 * lines(1.0, 0.005);
         let colour = floor.lerp(line, minor.max(major));
         let light = 1.0 - shadow.map_or(0.0, |shadow| shadow.at(point.x, point.z));
         (colour * light, fade)
@@ -93,10 +92,17 @@ fn line_coverage(position: f32, footprint: f32, spacing: f32, width: f32) -> f32
     // The length of line from zero to `x`.
     let length = |x: f32| {
         let shifted = x + width * 0.5;
-        (shifted / spacing).floor() * width + shifted.rem_euclid(spacing).min(width)
+        let whole = floor(shifted / spacing);
+        whole * width + (shifted - whole * spacing).min(width)
     };
     let half = footprint.max(1e-6) * 0.5;
     ((length(position + half) - length(position - half)) / (2.0 * half)).clamp(0.0, 1.0)
+}
+
+/// `f32::floor` for moderate values: a library call without SSE 4.1, and this runs for each pixel.
+pub(super) fn floor(value: f32) -> f32 {
+    let whole = value as i32 as f32;
+    if whole > value { whole - 1.0 } else { whole }
 }
 
 #[cfg(test)]

@@ -6,10 +6,10 @@ use glam::Vec3;
 pub(crate) const KEY_DIRECTION: Vec3 = Vec3::new(0.36, 0.8, 0.48);
 
 /// Linear light from sky and floor, from the key light, and from beside the camera.
-const SKY: Vec3 = Vec3::new(0.40, 0.43, 0.48);
-const BOUNCE: Vec3 = Vec3::new(0.20, 0.185, 0.17);
-const KEY: Vec3 = Vec3::new(0.62, 0.59, 0.54);
-const FILL: Vec3 = Vec3::new(0.17, 0.17, 0.18);
+const SKY: Vec3 = Vec3::new(0.43, 0.455, 0.50);
+const BOUNCE: Vec3 = Vec3::new(0.27, 0.255, 0.24);
+const KEY: Vec3 = Vec3::new(0.50, 0.48, 0.44);
+const FILL: Vec3 = Vec3::new(0.29, 0.285, 0.28);
 
 /// The light that leaves a surface towards the viewer, linear.
 ///

@@ -10,7 +10,7 @@ use crate::camera::{Camera, Projection};
 /// the picture's top left corner and `depth` is *nearness*: larger is nearer, and it is linear
 /// over the picture (1 / distance in perspective, minus the distance in orthographic views).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ViewTransform {
+pub(crate) struct ViewTransform {
     eye: DVec3,
     right: DVec3,
     up: DVec3,
@@ -52,7 +52,7 @@ pub(super) struct Ray {
 
 impl ViewTransform {
     /// The camera must have passed its check.
-    pub(super) fn new(camera: &Camera, width: u32, height: u32) -> Self {
+    pub(crate) fn new(camera: &Camera, width: u32, height: u32) -> Self {
         let forward = (camera.target - camera.eye)
             .as_dvec3()
             .normalize_or(DVec3::NEG_Z);
@@ -99,7 +99,7 @@ impl ViewTransform {
     }
 
     /// Where a point lies in the picture, in pixels, and its nearness; `None` behind the near plane.
-    pub(super) fn to_pixel(self, point: Vec3) -> Option<(f32, f32, f32)> {
+    pub(crate) fn to_pixel(self, point: Vec3) -> Option<(f32, f32, f32)> {
         let clip = self.to_clip(point);
         (clip.w >= self.near.unwrap_or(0.0)).then(|| {
             (
@@ -125,8 +125,23 @@ impl ViewTransform {
         }
     }
 
-    /// How many pixels one metre takes at a point.
-    pub(super) fn pixels_per_metre(&self, point: Vec3) -> f32 {
-        (self.scale / self.to_clip(point).w.max(1e-6)) as f32
+    /// How many metres across the line of sight one pixel takes, `distance` along a ray.
+    pub(super) fn metres_per_pixel(&self, distance: f32) -> f32 {
+        // Rays advance one metre into the depth for each unit of distance.
+        let depth = if self.near.is_some() {
+            f64::from(distance)
+        } else {
+            1.0
+        };
+        (depth / self.scale) as f32
+    }
+
+    /// The distance into the depth, in metres, of a nearness.
+    pub(super) fn depth(&self, nearness: f32) -> f32 {
+        if self.near.is_some() {
+            1.0 / nearness
+        } else {
+            -nearness
+        }
     }
 }

@@ -172,38 +172,45 @@ impl Samples {
         let rows = (self.ids.len() / self.width) as i64;
         let first = facet.rows.0.max(self.first_row);
         let last = facet.rows.1.min(self.first_row + rows - 1);
-        // Edge functions at the samples, relative to the pixel's corner.
+        // Edge functions at the samples relative to the pixel's corner, in units of 1/16 of theirs:
+        // below 2^25 * (15 + 14) inside the guard band, so eight of them fit a vector of 32 bits.
         let offsets = facet
             .edges
-            .map(|(a, b, _)| SAMPLE_POSITIONS.map(|(x, y)| (a * x + b * y) * (STEPS / 16)));
+            .map(|(a, b, _)| SAMPLE_POSITIONS.map(|(x, y)| (a * x + b * y) as i32));
         let (at_corner, by_column, by_row) = facet.nearness;
-        let lifts =
-            SAMPLE_POSITIONS.map(|(x, y)| (by_column * x as f64 + by_row * y as f64) / 16.0);
+        let lifts = SAMPLE_POSITIONS
+            .map(|(x, y)| ((by_column * x as f64 + by_row * y as f64) / 16.0) as f32);
         for row in first..=last {
+            let start = (row - self.first_row) as usize * self.width;
             for column in facet.columns.0..=facet.columns.1 {
-                let [e0, e1, e2] = facet
-                    .edges
-                    .map(|(a, b, c)| a * column * STEPS + b * row * STEPS + c);
-                let mut inside = [false; SAMPLES];
-                for sample in 0..SAMPLES {
-                    // The sign bit of the union is set if any of the three is negative.
-                    let signs = (e0 + offsets[0][sample])
+                // Whole sixteenths decide the sign, as the offsets are whole; what lies beyond the
+                // greatest offset is far inside or far outside.
+                let corner = |(a, b, c): (i64, i64, i64)| {
+                    let value = (a * column + b * row) * STEPS + c;
+                    (value >> 4).clamp(-(1 << 30), 1 << 30) as i32
+                };
+                let [e0, e1, e2] = [
+                    corner(facet.edges[0]),
+                    corner(facet.edges[1]),
+                    corner(facet.edges[2]),
+                ];
+                // The sign bit of the union is set if any of the three is negative.
+                let signs: [i32; SAMPLES] = std::array::from_fn(|sample| {
+                    (e0 + offsets[0][sample])
                         | (e1 + offsets[1][sample])
-                        | (e2 + offsets[2][sample]);
-                    inside[sample] = signs >= 0;
-                }
-                if inside == [false; SAMPLES] {
+                        | (e2 + offsets[2][sample])
+                });
+                if signs.iter().fold(-1, |all, sign| all & sign) < 0 {
                     continue;
                 }
-                let pixel = (row - self.first_row) as usize * self.width + column as usize;
-                let base = at_corner + by_column * column as f64 + by_row * row as f64;
-                let (ids, nearness) = (&mut self.ids[pixel], &mut self.nearness[pixel]);
+                let base = (at_corner + by_column * column as f64 + by_row * row as f64) as f32;
+                let ids = &mut self.ids[start + column as usize];
+                let nearness = &mut self.nearness[start + column as usize];
                 for sample in 0..SAMPLES {
-                    let here = ((base + lifts[sample]) as f32).clamp(facet.range.0, facet.range.1);
-                    if inside[sample] && here > nearness[sample] {
-                        nearness[sample] = here;
-                        ids[sample] = facet.id;
-                    }
+                    let here = (base + lifts[sample]).clamp(facet.range.0, facet.range.1);
+                    let wins = signs[sample] >= 0 && here > nearness[sample];
+                    nearness[sample] = if wins { here } else { nearness[sample] };
+                    ids[sample] = if wins { facet.id } else { ids[sample] };
                 }
             }
         }

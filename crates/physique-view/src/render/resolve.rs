@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::contour::OUTLINE_STEP;
 use super::light::shade;
 use super::projection::{Ray, ViewTransform};
 use super::raster::{NOTHING, SAMPLE_POSITIONS, SAMPLES, Samples};
@@ -10,7 +11,7 @@ use crate::{Colour, Colours, Scene, Shading, palette};
 
 /// How strongly a highlighted triangle shines through the body, and how much of a body below the
 /// floor can be seen through it.
-const XRAY_OPACITY: f32 = 0.60;
+const XRAY_OPACITY: f32 = 0.72;
 const BELOW_FLOOR: f32 = 0.35;
 
 /// What the samples of a band show: the nearest surface, and the nearest highlighted one.
@@ -25,6 +26,21 @@ pub(super) struct Resolver<'a> {
     view: ViewTransform,
     background: Vec3,
     highlight: Vec3,
+}
+
+/// A pixel's colour, and what in it lies behind a nearer surface.
+pub(super) struct Pixel {
+    pub(super) colour: Colour,
+    pub(super) behind: Option<Behind>,
+}
+
+/// The part of a pixel at an outline that shows the surface behind.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Behind {
+    /// Its share of the pixel's linear light.
+    pub(super) light: Vec3,
+    /// Its own nearness.
+    pub(super) nearness: f32,
 }
 
 /// Where a ray meets a triangle.
@@ -44,13 +60,25 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// The colour of the pixel at (`column`, `row`), whose samples stand at `index`.
-    pub(super) fn pixel(&self, shown: &Shown<'_>, index: usize, column: u32, row: u32) -> Colour {
+    /// The pixel at (`column`, `row`), whose samples stand at `index`.
+    pub(super) fn pixel(&self, shown: &Shown<'_>, index: usize, column: u32, row: u32) -> Pixel {
         let ids = &shown.surface.ids[index];
         let lit = shown
             .highlight
             .map_or([NOTHING; SAMPLES], |samples| samples.ids[index]);
+        if *ids == [ids[0]; SAMPLES] && lit == [lit[0]; SAMPLES] {
+            let ray = self.view.ray(f64::from(column) + 0.5, f64::from(row) + 0.5);
+            let colour = Colour::from_linear(self.colour(ids[0], lit[0], &ray));
+            return Pixel {
+                colour,
+                behind: None,
+            };
+        }
+        let nearness = &shown.surface.nearness[index];
+        let nearest = nearness.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        let edge = self.view.depth(nearest) + OUTLINE_STEP;
         let mut light = Vec3::ZERO;
+        let mut behind: Option<Behind> = None;
         let mut done = [false; SAMPLES];
         // Samples that show the same are coloured once, in the middle of where they lie.
         for first in 0..SAMPLES {
@@ -69,9 +97,21 @@ impl<'a> Resolver<'a> {
             let middle =
                 |corner: u32, sum: i64| f64::from(corner) + sum as f64 / (16 * count) as f64;
             let ray = self.view.ray(middle(column, x), middle(row, y));
-            light += self.colour(ids[first], lit[first], &ray) * count as f32;
+            let share = count as f32 / SAMPLES as f32;
+            let here = self.colour(ids[first], lit[first], &ray) * share;
+            light += here;
+            if ids[first] != NOTHING && self.view.depth(nearness[first]) > edge {
+                let far = behind.get_or_insert(Behind {
+                    light: Vec3::ZERO,
+                    nearness: nearness[first],
+                });
+                far.light += here;
+            }
         }
-        Colour::from_linear(light / SAMPLES as f32)
+        Pixel {
+            colour: Colour::from_linear(light),
+            behind,
+        }
     }
 
     fn colour(&self, id: u32, lit: u32, ray: &Ray) -> Vec3 {

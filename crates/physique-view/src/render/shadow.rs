@@ -2,6 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
+use super::ground::floor;
 use super::light::KEY_DIRECTION;
 
 /// Metres a cell, unless the shadow would then have too many cells.
@@ -9,7 +10,7 @@ const FINEST_CELL: f32 = 0.012;
 const MOST_CELLS: f32 = 512.0;
 /// Darkness of the shadow cast by the key light, and of the one under near surface.
 const CAST: f32 = 0.20;
-const CONTACT: f32 = 0.50;
+const CONTACT: f32 = 0.60;
 /// The height over which the contact shadow fades, in metres.
 const CONTACT_HEIGHT: f32 = 0.10;
 
@@ -85,18 +86,19 @@ impl GroundShadow {
     /// Darkness at a point of the plane: 0 for full light.
     pub(crate) fn at(&self, x: f32, z: f32) -> f32 {
         let place = (Vec2::new(x, z) - self.origin) / self.cell - 0.5;
-        let (column, row) = (place.x.floor(), place.y.floor());
+        let (column, row) = (floor(place.x), floor(place.y));
         let (tx, ty) = (place.x - column, place.y - row);
-        let cell = |dx: i64, dy: i64| {
-            let (column, row) = (column as i64 + dx, row as i64 + dy);
-            let inside =
-                (0..self.columns as i64).contains(&column) && (0..self.rows as i64).contains(&row);
-            if inside {
-                self.darkness[row as usize * self.columns + column as usize]
-            } else {
-                0.0
-            }
-        };
+        // Casts saturate, so that no place is inside by accident.
+        let (column, row) = (column as i32, row as i32);
+        if column < 0
+            || row < 0
+            || column as usize + 1 >= self.columns
+            || row as usize + 1 >= self.rows
+        {
+            return 0.0;
+        }
+        let first = row as usize * self.columns + column as usize;
+        let cell = |dx: usize, dy: usize| self.darkness[first + dy * self.columns + dx];
         let top = cell(0, 0) * (1.0 - tx) + cell(1, 0) * tx;
         let bottom = cell(0, 1) * (1.0 - tx) + cell(1, 1) * tx;
         top * (1.0 - ty) + bottom * ty
@@ -204,7 +206,16 @@ mod tests {
         assert!(touching > floating + 0.05, "{touching} {floating}");
         let shadow = GroundShadow::new(square(0.0).into_iter(), 0.0).expect("a shadow");
         assert_eq!(shadow.at(3.0, 0.0), 0.0);
-        assert!(shadow.at(f32::NAN, 0.0).is_nan() || shadow.at(f32::NAN, 0.0) == 0.0);
+        assert_eq!(shadow.at(1e30, -1e30), 0.0);
+    }
+
+    #[test]
+    fn the_key_shadow_falls_away_from_the_light() {
+        let shadow = GroundShadow::new(square(1.0).into_iter(), 0.0).expect("a shadow");
+        // One metre up, the shadow lies where the light through the middle meets the floor.
+        let away = KEY_DIRECTION / KEY_DIRECTION.y;
+        assert!(shadow.at(-away.x, -away.z) > 0.9 * CAST);
+        assert!(shadow.at(away.x, away.z) == 0.0);
     }
 
     #[test]

@@ -13,41 +13,60 @@ use crate::{
 };
 
 /// The share of a picture left free on each side.
-const CELL_MARGIN: f32 = 0.07;
+const CELL_MARGIN: f32 = 0.06;
 
-/// The space that every moment's picture shows, around its own place on the floor.
+/// What all pictures share: the camera of each view, as if every moment stood over the origin.
 struct Stage {
-    size: Vec3,
-    low: f32,
+    cameras: Vec<Camera>,
+    /// Where each moment stands on the floor.
+    places: Vec<Vec3>,
+    ground_radius: f32,
+    floor: f32,
 }
 
 impl Stage {
-    fn new(sheet: &ContactSheet<'_>, bounds: &[Bounds]) -> Self {
-        let size = bounds.iter().map(Bounds::size).fold(Vec3::ZERO, Vec3::max);
-        let lowest = bounds.iter().map(|b| b.min.y).fold(f32::INFINITY, f32::min);
-        let high = bounds
+    fn new(sheet: &ContactSheet<'_>) -> Result<Self, ViewError> {
+        let bounds = sheet
+            .frames
             .iter()
-            .map(|b| b.max.y)
-            .fold(f32::NEG_INFINITY, f32::max);
-        let low = sheet
-            .ground_height
-            .map_or(lowest, |ground| ground.min(lowest));
-        Self {
-            size: Vec3::new(size.x, high - low, size.z),
-            low,
-        }
-    }
-
-    fn around(&self, centre: Vec3) -> Bounds {
-        let min = Vec3::new(
-            centre.x - self.size.x * 0.5,
-            self.low,
-            centre.z - self.size.z * 0.5,
-        );
-        Bounds {
-            min,
-            max: min + self.size,
-        }
+            .map(|frame| Bounds::around(frame.positions))
+            .collect::<Option<Vec<_>>>()
+            .ok_or(ViewError::Empty {
+                what: "a frame has no vertices",
+            })?;
+        let places: Vec<_> = bounds
+            .iter()
+            .map(|b| Vec3::new(b.centre().x, 0.0, b.centre().z))
+            .collect();
+        let lowest = bounds.iter().map(|b| b.min.y).fold(f32::INFINITY, f32::min);
+        let aspect = sheet.cell[0] as f32 / sheet.cell[1] as f32;
+        let cameras = sheet
+            .views
+            .iter()
+            .map(|view| {
+                let points = sheet
+                    .frames
+                    .iter()
+                    .zip(&places)
+                    .flat_map(|(frame, &place)| {
+                        // What hovers keeps its distance from the floor in the picture.
+                        let feet = sheet.ground_height.map(|height| Vec3::Y * height);
+                        frame.positions.iter().map(move |&p| p - place).chain(feet)
+                    });
+                Camera::framing_points(points, view, aspect, CELL_MARGIN)
+            })
+            .collect();
+        let widest = bounds
+            .iter()
+            .map(|b| b.size().max_element())
+            .fold(0.5, f32::max);
+        let floor = sheet.ground_height.unwrap_or(lowest);
+        Ok(Self {
+            cameras,
+            places,
+            ground_radius: widest * 1.5,
+            floor,
+        })
     }
 }
 
@@ -60,21 +79,12 @@ pub(super) fn draw_cells(
     for frame in &sheet.frames {
         mesh(sheet, frame).check()?;
     }
-    let bounds = sheet
-        .frames
-        .iter()
-        .map(|frame| {
-            Bounds::around(frame.positions).ok_or(ViewError::Empty {
-                what: "a frame has no vertices",
-            })
-        })
-        .collect::<Result<Vec<_>, _>>()?;
-    let stage = Stage::new(sheet, &bounds);
+    let stage = Stage::new(sheet)?;
     let pictures = sheet
         .frames
         .par_iter()
-        .zip(&bounds)
-        .map(|(frame, bounds)| draw_frame(sheet, frame, &stage.around(bounds.centre())))
+        .zip(&stage.places)
+        .map(|(frame, &place)| draw_frame(sheet, frame, &stage, place))
         .collect::<Result<Vec<_>, _>>()?;
     for (frame, pictures) in pictures.iter().enumerate() {
         for (view, picture) in pictures.iter().enumerate() {
@@ -100,43 +110,34 @@ fn mesh<'a>(sheet: &ContactSheet<'a>, frame: &Frame<'a>) -> Mesh<'a> {
 fn draw_frame(
     sheet: &ContactSheet<'_>,
     frame: &Frame<'_>,
-    stage: &Bounds,
+    stage: &Stage,
+    place: Vec3,
 ) -> Result<Vec<Image>, ViewError> {
     let [width, height] = sheet.cell;
-    let centre = stage.centre();
     let mut scene = Scene::new();
     scene.add_mesh(mesh(sheet, frame))?;
-    if let Some(ground) = sheet.ground_height {
-        let radius = stage.size().max_element().max(0.5) * 1.4;
+    if let Some(height) = sheet.ground_height {
         scene.set_ground(Ground {
-            height: ground,
-            centre: [centre.x, centre.z],
-            radius,
+            height,
+            centre: [place.x, place.z],
+            radius: stage.ground_radius,
         })?;
     }
-    let floor = sheet.ground_height.unwrap_or(stage.min.y);
     let points = sheet
         .trajectory
         .iter()
-        .map(|p| Vec3::new(p.x, floor, p.z))
+        .map(|p| Vec3::new(p.x, stage.floor, p.z))
         .collect();
     scene.add_polyline(Polyline {
         points,
         colour: palette::TRAJECTORY,
-        width: 1.6,
+        width: 1.4,
         hidden_opacity: 0.0,
     })?;
-    let aspect = width as f32 / height as f32;
-    sheet
-        .views
+    stage
+        .cameras
         .par_iter()
-        .map(|view| {
-            scene.render(
-                &Camera::framing(stage, view, aspect, CELL_MARGIN),
-                width,
-                height,
-            )
-        })
+        .map(|camera| scene.render(&camera.moved_by(place), width, height))
         .collect()
 }
 
@@ -158,45 +159,50 @@ fn label(sheet: &ContactSheet<'_>, layout: &Layout, frame: usize, view: usize, i
         colour: palette::FAINT_INK,
         ..ink
     };
+    let red = TextStyle {
+        weight: Weight::Regular,
+        colour: palette::INTERSECTION,
+        ..ink
+    };
     let moment = &sheet.frames[frame];
     let time = format!("{:.2} s", moment.seconds);
     let name = sheet.views[view].name;
-    if heads_column && layout.transposed {
-        image.write_text(
-            &fit(name, ink.size, ink.weight, width),
-            x + 1.0,
-            y - 8.0,
-            &ink,
-        );
-    } else if heads_column {
-        let time = fit(&time, ink.size, ink.weight, width);
-        image.write_text(&time, x + 1.0, y - 8.0, &ink);
-        let room = width - text_width(&time, ink.size, ink.weight) - 12.0;
-        let note = fit(&moment.note, 13.0, Weight::Regular, room);
-        let red = TextStyle {
-            size: 13.0,
-            weight: Weight::Regular,
-            colour: palette::INTERSECTION,
-            align: Align::Right,
-        };
-        image.write_text(&note, x + width - 1.0, y - 8.0, &red);
+    let (column_head, row_head) = if layout.transposed {
+        (name, &*time)
+    } else {
+        (&*time, name)
+    };
+    if heads_column {
+        let head = fit(column_head, ink.size, ink.weight, width);
+        image.write_text(&head, x + 1.0, y - 8.0, &ink);
+        if !layout.transposed {
+            let after = text_width(&head, ink.size, ink.weight) + 10.0;
+            let note = fit(&moment.note, red.size, red.weight, width - after);
+            image.write_text(&note, x + after, y - 8.0, &red);
+        }
     }
     if heads_row {
-        let text = if layout.transposed {
-            time
-        } else {
-            name.to_owned()
-        };
-        image.write_text(
-            &fit(&text, faint.size, faint.weight, width - 16.0),
-            x + 8.0,
-            y + 18.0,
-            &faint,
-        );
+        let head = fit(row_head, faint.size, faint.weight, width - 16.0);
+        image.write_text(&head, x + 8.0, y + 18.0, &faint);
+        if layout.transposed {
+            let after = text_width(&head, faint.size, faint.weight) + 18.0;
+            let note = fit(&moment.note, faint.size, faint.weight, width - after);
+            image.write_text(
+                &note,
+                x + after,
+                y + 18.0,
+                &TextStyle {
+                    size: faint.size,
+                    ..red
+                },
+            );
+        }
+    }
+    if heads_row || (layout.transposed && frame == 0) {
         draw_axes(
             &sheet.views[view],
-            x + 26.0,
-            y + sheet.cell[1] as f32 - 22.0,
+            x + 8.0,
+            y + sheet.cell[1] as f32 - 8.0,
             image,
         );
     }
