@@ -1,7 +1,9 @@
 //! What a body costs: column scan, `sia` voxels and intersecting triangles of the open body
 //! (13,776 triangles) in four poses, one thread. Run with `cargo bench -p physique-geometry`.
+#![allow(clippy::expect_used, reason = "a benchmark has no one to report to")]
 
 use divan::{Bencher, black_box};
+use physique_geometry::sia::{SiaCounter, UnitBall};
 use physique_geometry::{ColumnScanner, PairOverlaps, ScanOptions, SharedVertices, TrianglePairs};
 
 #[path = "fixtures/open_body.rs"]
@@ -43,6 +45,19 @@ fn overlaps_by_body_part(bencher: Bencher<'_, '_>, pose: &str) {
             .expect("one label a triangle");
         scan.volumes()
     });
+}
+
+#[divan::bench(args = POSES)]
+fn sia_voxels(bencher: Bencher<'_, '_>, pose: &str) {
+    let body = OpenBody::load();
+    let ball = UnitBall::around(body.pose("rest")).expect("has extent");
+    let positions: Vec<_> = body
+        .pose(pose)
+        .iter()
+        .map(|&p| ball.ball_from_world(p))
+        .collect();
+    let mut counter = SiaCounter::new(&body.triangles).expect("closed");
+    bencher.bench_local(|| counter.count(black_box(&positions)).expect("finite"));
 }
 
 #[divan::bench(args = POSES)]

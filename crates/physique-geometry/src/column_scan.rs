@@ -22,13 +22,13 @@
 //! by anything else changes results within their error.
 
 mod columns;
-mod crossing;
+pub(crate) mod crossing;
 mod labels;
-mod lattice;
+pub(crate) mod lattice;
 mod options;
 mod overlap;
 mod pairs;
-mod raster;
+pub(crate) mod raster;
 mod scanner;
 mod spans;
 

@@ -121,6 +121,31 @@ pub enum Error {
         limit: f32,
     },
 
+    /// All positions coincide or are too far apart, so that no ball around them has a usable radius.
+    #[error(
+        "the positions extend {radius} m around their middle, expected a finite extent above zero"
+    )]
+    NoExtent {
+        /// Greatest distance from the middle, in metres.
+        radius: f32,
+    },
+
+    /// A position is nowhere near the unit ball.
+    #[error(
+        "a vertex is {distance} away from the centre of the unit ball, expected at most {limit}: was \
+         the body moved into the ball, without its translation?"
+    )]
+    OutsideUnitBall {
+        /// Distance from the centre along an axis, in radii.
+        distance: f32,
+        /// The distance allowed, in radii.
+        limit: f32,
+    },
+
+    /// A surface winds around a point more often than can be counted.
+    #[error("the surface covers a point more than 32767 times, expected fewer")]
+    TooManyCoverings,
+
     /// The triangles together span more grid lines than allowed.
     #[error(
         "the triangles' boxes hold {found} line positions, expected at most {limit}: the spacing is \

@@ -6,6 +6,7 @@
 //! * [`ColumnScanner`]: volume that a closed surface covers once, twice or more often, exact along
 //!   parallel lines, told apart by pair of labels (body parts, to the floors above).
 //! * [`TrianglePairs`]: which triangles intersect, exactly.
+//! * [`sia`]: the voxel protocol of the published self-intersection metric, and where it misleads.
 //! * [`shapes`]: spheres, boxes and tori with known volumes.
 //!
 //! Positions are `&[Vec3]` in metres; volumes are `f64` in cubic metres. Surfaces are oriented
@@ -15,7 +16,9 @@ mod column_scan;
 mod error;
 pub mod exact;
 mod measure;
+pub mod reference;
 pub mod shapes;
+pub mod sia;
 mod triangle_pairs;
 mod triangles;
 

@@ -1,7 +1,7 @@
 /// A place where a line crosses a triangle: depth, triangle and direction in one word that sorts by
 /// depth, then by triangle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub(super) struct Crossing(u64);
+pub(crate) struct Crossing(u64);
 
 /// Makes depths positive: they start near 0 but may round to just below.
 const DEPTH_BIAS: i32 = 1 << 30;
@@ -9,31 +9,31 @@ const DEPTH_BIAS: i32 = 1 << 30;
 impl Crossing {
     /// `depth` in depth units, below 2^30 (the lattice's limits keep it below 2^28).
     #[inline]
-    pub(super) fn new(depth: i32, triangle: u32, leaving: bool) -> Self {
+    pub(crate) fn new(depth: i32, triangle: u32, leaving: bool) -> Self {
         // Wraps for lines that miss a steep triangle: the raster drops those.
         let high = u64::from(depth.wrapping_add(DEPTH_BIAS) as u32);
         Self(high << 32 | u64::from(triangle) << 1 | u64::from(leaving))
     }
 
     #[inline]
-    pub(super) fn depth(self) -> i64 {
+    pub(crate) fn depth(self) -> i64 {
         (self.0 >> 32) as i64 - i64::from(DEPTH_BIAS)
     }
 
     #[inline]
-    pub(super) fn triangle(self) -> u32 {
+    pub(crate) fn triangle(self) -> u32 {
         (self.0 as u32) >> 1
     }
 
     /// Whether the line comes out of the surface here.
     #[inline]
-    pub(super) fn leaving(self) -> bool {
+    pub(crate) fn leaving(self) -> bool {
         self.0 & 1 == 1
     }
 
     /// By how much the winding number changes here.
     #[inline]
-    pub(super) fn step(self) -> i64 {
+    pub(crate) fn step(self) -> i64 {
         1 - 2 * (self.0 & 1) as i64
     }
 }

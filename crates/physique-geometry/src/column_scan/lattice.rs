@@ -6,7 +6,7 @@ use crate::Error;
 /// Vertices are snapped across the lines to 1/2^10 of the spacing.
 pub(super) const SUBCELL_BITS: u32 = 10;
 /// Depths along a line are whole multiples of 1/2^16 of the spacing.
-pub(super) const DEPTH_UNITS: f32 = 65536.0;
+pub(crate) const DEPTH_UNITS: f32 = 65536.0;
 
 /// Fraction of a spacing by which the lines are shifted off the absolute multiples: the two
 /// coordinates of the plastic number's low-discrepancy sequence.
@@ -16,11 +16,11 @@ const MOST_CELLS_FROM_ORIGIN: f64 = (1 << 20) as f64;
 
 /// A vertex as the lattice sees it.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Snapped {
+pub(crate) struct Snapped {
     /// Across the lines, in subcells from line (0, 0).
-    pub(super) across: [i32; 2],
+    pub(crate) across: [i32; 2],
     /// Along the lines, in depth units from the lattice's origin.
-    pub(super) depth: f32,
+    pub(crate) depth: f32,
 }
 
 /// The lines that one mesh in one pose needs.

@@ -1,10 +1,10 @@
 use super::crossing::Crossing;
-use super::lattice::{Lattice, SUBCELL_BITS, Snapped};
+use super::lattice::Snapped;
 use crate::{Error, Triangles};
 
 /// Scratch and result of drawing triangles onto the lattice.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Raster {
+pub(crate) struct Raster {
     /// Triangles whose box holds a line.
     candidates: Vec<u32>,
     /// Lines of the crossings; the first `count` are valid.
@@ -15,15 +15,17 @@ pub(super) struct Raster {
 }
 
 impl Raster {
-    /// Finds all crossings of `triangles` with the lines of the lattice.
-    pub(super) fn draw(
+    /// Finds all crossings of `triangles` with `lines[0]` by `lines[1]` lines at multiples of 2^`BITS`
+    /// subcells. Other lines, if any vertex lies that far out, are left alone.
+    pub(crate) fn draw<const BITS: u32>(
         &mut self,
         triangles: &Triangles,
         snapped: &[Snapped],
-        lattice: &Lattice,
+        lines: [usize; 2],
         most_crossings: u64,
     ) -> Result<(), Error> {
-        let found = self.cull(triangles, snapped);
+        let lines = lines.map(|count| count as i32);
+        let found = self.cull::<BITS>(triangles, snapped, lines);
         if found > most_crossings {
             return Err(Error::TooManyCrossings {
                 found,
@@ -36,44 +38,54 @@ impl Raster {
             self.lines.resize(room, 0);
             self.crossings.resize(room, Crossing::default());
         }
-        self.cross(triangles, snapped, lattice.lines[0]);
+        self.cross::<BITS>(triangles, snapped, lines);
         Ok(())
     }
 
     /// Line and crossing of all that was found, in order of the triangles.
-    pub(super) fn crossings(&self) -> (&[u32], &[Crossing]) {
+    pub(crate) fn crossings(&self) -> (&[u32], &[Crossing]) {
         (&self.lines[..self.count], &self.crossings[..self.count])
     }
 
     /// Lists the triangles whose box holds a line; returns how many lines the boxes hold together.
-    fn cull(&mut self, triangles: &Triangles, snapped: &[Snapped]) -> u64 {
+    fn cull<const BITS: u32>(
+        &mut self,
+        triangles: &Triangles,
+        snapped: &[Snapped],
+        lines: [i32; 2],
+    ) -> u64 {
         self.candidates.resize(triangles.len() + 1, 0);
         let (mut kept, mut found) = (0, 0);
         for (triangle, corners) in triangles.corners().iter().enumerate() {
-            let bounds = Bounds::of(corners.map(|v| snapped[v as usize].across));
-            let lines = bounds.line_count();
+            let bounds = Bounds::of::<BITS>(corners.map(|v| snapped[v as usize].across), lines);
+            let held = bounds.line_count();
             // Without a branch, which would be mispredicted for every other triangle.
             self.candidates[kept] = triangle as u32;
-            kept += usize::from(lines > 0);
-            found += lines;
+            kept += usize::from(held > 0);
+            found += held;
         }
         self.candidates.truncate(kept);
         found
     }
 
     /// Tests the lines in the boxes of the candidates.
-    fn cross(&mut self, triangles: &Triangles, snapped: &[Snapped], lines_aside: usize) {
+    fn cross<const BITS: u32>(
+        &mut self,
+        triangles: &Triangles,
+        snapped: &[Snapped],
+        lines: [i32; 2],
+    ) {
         let mut count = 0;
         for &triangle in &self.candidates {
             let [a, b, c] = triangles.corners()[triangle as usize].map(|v| snapped[v as usize]);
-            let bounds = Bounds::of([a.across, b.across, c.across]);
+            let bounds = Bounds::of::<BITS>([a.across, b.across, c.across], lines);
             let owns = [owns_ties(b, c), owns_ties(c, a), owns_ties(a, b)];
             for v in bounds.first[1]..=bounds.last[1] {
                 for u in bounds.first[0]..=bounds.last[0] {
                     let [to_a, to_b, to_c] = [a, b, c].map(|corner| {
                         [
-                            corner.across[0] - (u << SUBCELL_BITS),
-                            corner.across[1] - (v << SUBCELL_BITS),
+                            corner.across[0] - (u << BITS),
+                            corner.across[1] - (v << BITS),
                         ]
                     });
                     // Twice the signed areas of line and edge: the line's barycentric coordinates.
@@ -84,7 +96,7 @@ impl Raster {
 
                     let [_, of_b, of_c] = areas.map(|part| part as f32 / area as f32);
                     let depth = a.depth + (of_b * (b.depth - a.depth) + of_c * (c.depth - a.depth));
-                    self.lines[count] = v as u32 * lines_aside as u32 + u as u32;
+                    self.lines[count] = (v * lines[0] + u) as u32;
                     // Counter-clockwise seen against the line: its outside is where the line goes.
                     self.crossings[count] =
                         Crossing::new(depth.round_ties_even() as i32, triangle, x);
@@ -104,13 +116,13 @@ struct Bounds {
 
 impl Bounds {
     #[inline]
-    fn of([a, b, c]: [[i32; 2]; 3]) -> Self {
+    fn of<const BITS: u32>([a, b, c]: [[i32; 2]; 3], lines: [i32; 2]) -> Self {
         let least = |k: usize| a[k].min(b[k]).min(c[k]);
         let most = |k: usize| a[k].max(b[k]).max(c[k]);
-        let up = (1 << SUBCELL_BITS) - 1;
+        let up = (1 << BITS) - 1;
         Self {
-            first: [0, 1].map(|k| (least(k) + up) >> SUBCELL_BITS),
-            last: [0, 1].map(|k| most(k) >> SUBCELL_BITS),
+            first: [0, 1].map(|k| ((least(k) + up) >> BITS).max(0)),
+            last: [0, 1].map(|k| (most(k) >> BITS).min(lines[k] - 1)),
         }
     }
 
@@ -121,7 +133,7 @@ impl Bounds {
     }
 }
 
-/// Twice the signed area between a line and an edge, exact: both ends lie within 2^22 subcells.
+/// Twice the signed area between a line and an edge, exact: both ends lie within 2^30 subcells.
 #[inline]
 fn cross(p: [i32; 2], q: [i32; 2]) -> i64 {
     i64::from(p[0]) * i64::from(q[1]) - i64::from(p[1]) * i64::from(q[0])

@@ -3,7 +3,7 @@ use glam::Vec3;
 use super::ScanOptions;
 use super::columns::{Columns, CoveredVolumes};
 use super::labels::TriangleLabels;
-use super::lattice::{Lattice, Snapped};
+use super::lattice::{Lattice, SUBCELL_BITS, Snapped};
 use super::overlap::{self, Overlap};
 use super::pairs::PairOverlaps;
 use super::raster::Raster;
@@ -79,10 +79,10 @@ impl ColumnScanner {
         self.triangles.check_positions(positions)?;
         let lattice = Lattice::around(positions, &self.options)?;
         lattice.snap(positions, &mut self.snapped);
-        self.raster.draw(
+        self.raster.draw::<SUBCELL_BITS>(
             &self.triangles,
             &self.snapped,
-            &lattice,
+            lattice.lines,
             self.options.most_crossings,
         )?;
         self.columns.fill(&self.raster, &lattice);

@@ -6,6 +6,7 @@
 )]
 
 use glam::Vec3;
+use multiversion::multiversion;
 
 use super::SharedVertices;
 use super::tree::Aabb;
@@ -153,6 +154,7 @@ fn length([x, y, z]: [f32; 3]) -> f32 {
 }
 
 /// Appends all intersecting pairs between two leaves (or within one).
+#[multiversion(targets = "simd")]
 pub(super) fn find_pairs(
     first: &Leaf,
     second: &Leaf,
@@ -188,7 +190,7 @@ pub(super) fn find_pairs(
 }
 
 /// Bit mask of the triangles of `leaf` whose box overlaps that of triangle `lane` of `one`.
-#[inline]
+#[inline(always)]
 fn overlapping(one: &Leaf, lane: usize, leaf: &Leaf) -> u32 {
     let mut overlaps = [true; LANES];
     for axis in 0..3 {
@@ -204,7 +206,7 @@ fn overlapping(one: &Leaf, lane: usize, leaf: &Leaf) -> u32 {
 /// Bit mask of the triangles of `leaf` that the planes of both triangles do not prove apart from
 /// triangle `lane` of `one`: corners that both share are disregarded. Pairs that share a vertex are
 /// left out if so asked.
-#[inline]
+#[inline(always)]
 fn unseparated(one: &Leaf, lane: usize, leaf: &Leaf, shared_vertices: SharedVertices) -> u32 {
     // Which corners are shared, of the one and of the others.
     let mut shared_of_one = [[false; LANES]; 3];
@@ -278,6 +280,8 @@ fn mask(lanes: [bool; LANES]) -> u32 {
 }
 
 /// Whether two triangles meet, beyond what they share if they share vertices. Exact.
+#[cold]
+#[inline(never)]
 fn intersect(first: &Leaf, lane: usize, second: &Leaf, other: usize) -> bool {
     let (a, b) = (first.vertices(lane), second.vertices(other));
     let (mut p, mut q) = (first.triangle(lane), second.triangle(other));

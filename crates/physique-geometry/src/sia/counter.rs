@@ -1,0 +1,206 @@
+use glam::Vec3;
+
+use super::{POINTS_ASIDE, VOXEL_CM3, coordinate, in_ball};
+use crate::column_scan::crossing::Crossing;
+use crate::column_scan::lattice::{DEPTH_UNITS, Snapped};
+use crate::column_scan::raster::Raster;
+use crate::{Axis, Error, Triangles};
+
+/// Vertices are snapped across the lines to 1/2^18 of the spacing: a quarter of a micrometre.
+const SUBCELL_BITS: u32 = 18;
+/// Positions farther out than this do not belong into a unit ball, and would overflow subcells.
+const FARTHEST: f32 = 64.0;
+/// Far more than 35 x 35 lines through a million triangles.
+const MOST_CROSSINGS: u64 = 1 << 24;
+/// Lines along z, x fastest.
+const LINES: usize = POINTS_ASIDE * POINTS_ASIDE;
+
+/// What the `sia` protocol reports for one pose, in cubic centimetres of the unit ball.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SiaVolumes {
+    /// Sum of the counts that are 2 or more, times [`VOXEL_CM3`].
+    pub self_intersection_cm3: f64,
+    /// Sum of all counts, negative ones included, times [`VOXEL_CM3`].
+    pub volume_cm3: f64,
+}
+
+impl SiaVolumes {
+    /// From the sum of the counts of 2 or more, and of all counts.
+    #[must_use]
+    pub fn from_sums(sum_of_multiple: i64, sum_of_all: i64) -> Self {
+        Self {
+            self_intersection_cm3: sum_of_multiple as f64 * VOXEL_CM3,
+            volume_cm3: sum_of_all as f64 * VOXEL_CM3,
+        }
+    }
+
+    /// Self-intersection over volume in percent; `None` if the volume is zero.
+    #[must_use]
+    pub fn percent(&self) -> Option<f64> {
+        (self.volume_cm3 != 0.0).then(|| 100.0 * self.self_intersection_cm3 / self.volume_cm3)
+    }
+}
+
+/// Counts how often a closed surface covers the points of the `sia` grid, pose after pose.
+///
+/// Lines along z run through the grid's points; the winding number at every point follows from the
+/// crossings before it. Made once a mesh (and a thread); after the first poses it allocates nothing.
+///
+/// ```
+/// use physique_geometry::{shapes, sia::SiaCounter};
+///
+/// let ball = shapes::icosphere(0.5, 4);
+/// let mut counter = SiaCounter::new(&ball.triangles)?;
+/// let volumes = counter.count(&ball.positions)?;
+/// assert_eq!(volumes.self_intersection_cm3, 0.0);
+/// // 0.524 m³, and the protocol's 6 % on top.
+/// assert!((volumes.volume_cm3 / 1e6 - 0.524 * 1.06).abs() < 0.005);
+/// # Ok::<(), physique_geometry::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct SiaCounter {
+    triangles: Triangles,
+    snapped: Vec<Snapped>,
+    raster: Raster,
+    /// Change of the winding number from the point before, by z, then line; one layer beyond the grid.
+    steps: Vec<i16>,
+    /// All bits set where a point lies in the ball, else none.
+    in_ball: Vec<i16>,
+    /// Winding numbers of the current layer.
+    winding: Vec<i16>,
+}
+
+impl SiaCounter {
+    /// Prepares to count a closed surface.
+    ///
+    /// # Errors
+    ///
+    /// If the surface is not closed.
+    pub fn new(triangles: &Triangles) -> Result<Self, Error> {
+        triangles.require_closed()?;
+        Ok(Self {
+            triangles: triangles.clone(),
+            snapped: Vec::new(),
+            raster: Raster::default(),
+            steps: vec![0; LINES * (POINTS_ASIDE + 1)],
+            in_ball: points().map(|point| -i16::from(in_ball(point))).collect(),
+            winding: vec![0; LINES],
+        })
+    }
+
+    /// Counts one pose, whose positions were moved into the [unit ball](super::UnitBall).
+    ///
+    /// # Errors
+    ///
+    /// If there is not one finite position a vertex, one is farther than 64 from the origin, or the
+    /// surface winds more than 32,767 times around a point.
+    pub fn count(&mut self, ball_positions: &[Vec3]) -> Result<SiaVolumes, Error> {
+        self.step(ball_positions)?;
+        let (mut sum_of_multiple, mut sum_of_all) = (0, 0);
+        self.layers(|_, counts| {
+            for &count in counts {
+                sum_of_all += i32::from(count);
+                sum_of_multiple += if count >= 2 { i32::from(count) } else { 0 };
+            }
+        });
+        Ok(SiaVolumes::from_sums(
+            sum_of_multiple.into(),
+            sum_of_all.into(),
+        ))
+    }
+
+    /// The count at every point: x slowest, z fastest; 0 outside the ball. For tests and pictures;
+    /// [`count`](Self::count) is faster.
+    ///
+    /// # Errors
+    ///
+    /// As [`count`](Self::count).
+    pub fn counts(&mut self, ball_positions: &[Vec3]) -> Result<Vec<i32>, Error> {
+        self.step(ball_positions)?;
+        let mut by_point = vec![0; LINES * POINTS_ASIDE];
+        self.layers(|z, counts| {
+            for (line, &count) in counts.iter().enumerate() {
+                let (x, y) = (line % POINTS_ASIDE, line / POINTS_ASIDE);
+                by_point[(x * POINTS_ASIDE + y) * POINTS_ASIDE + z] = i32::from(count);
+            }
+        });
+        Ok(by_point)
+    }
+
+    /// Finds the steps of the winding number along all lines.
+    fn step(&mut self, positions: &[Vec3]) -> Result<(), Error> {
+        self.triangles.check_positions(positions)?;
+        let farthest = positions
+            .iter()
+            .fold(Vec3::ZERO, |far, p| far.max(p.abs()))
+            .max_element();
+        if farthest > FARTHEST {
+            return Err(Error::OutsideUnitBall {
+                distance: farthest,
+                limit: FARTHEST,
+            });
+        }
+        snap(positions, &mut self.snapped);
+        let lines = [POINTS_ASIDE; 2];
+        self.raster
+            .draw::<SUBCELL_BITS>(&self.triangles, &self.snapped, lines, MOST_CROSSINGS)?;
+        self.steps.fill(0);
+        let (lines, crossings) = self.raster.crossings();
+        for (&line, &crossing) in lines.iter().zip(crossings) {
+            let step = &mut self.steps[first_layer_behind(crossing) * LINES + line as usize];
+            *step = step
+                .checked_add(crossing.step() as i16)
+                .ok_or(Error::TooManyCoverings)?;
+        }
+        Ok(())
+    }
+
+    /// Calls `visit` with every layer's number and counts.
+    fn layers(&mut self, mut visit: impl FnMut(usize, &[i16])) {
+        self.winding.fill(0);
+        let mut counts = [0; LINES];
+        for z in 0..POINTS_ASIDE {
+            let layer = z * LINES..(z + 1) * LINES;
+            let steps = self.steps[layer.clone()].iter().zip(&self.in_ball[layer]);
+            for ((winding, count), (step, in_ball)) in
+                self.winding.iter_mut().zip(&mut counts).zip(steps)
+            {
+                *winding = winding.wrapping_add(*step);
+                *count = *winding & in_ball;
+            }
+            visit(z, &counts);
+        }
+    }
+}
+
+/// The grid's points in the order of the layers: x fastest, z slowest.
+fn points() -> impl Iterator<Item = Vec3> {
+    (0..LINES * POINTS_ASIDE).map(|number| {
+        let (x, y, z) = (
+            number % POINTS_ASIDE,
+            number / POINTS_ASIDE % POINTS_ASIDE,
+            number / LINES,
+        );
+        Vec3::new(coordinate(x), coordinate(y), coordinate(z))
+    })
+}
+
+fn snap(positions: &[Vec3], snapped: &mut Vec<Snapped>) {
+    let cells = (POINTS_ASIDE - 1) as f32 / 2.0;
+    let subcells = cells * (1 << SUBCELL_BITS) as f32;
+    snapped.clear();
+    snapped.extend(positions.iter().map(|&p| {
+        let ([u, v], along) = Axis::Z.across_and_along(p);
+        Snapped {
+            across: [u, v].map(|x| ((x + 1.0) * subcells).round_ties_even() as i32),
+            depth: (along + 1.0) * cells * DEPTH_UNITS,
+        }
+    }));
+}
+
+/// The first layer at or behind a crossing; 35 if there is none.
+fn first_layer_behind(crossing: Crossing) -> usize {
+    let units = DEPTH_UNITS as i64;
+    let layer = (crossing.depth() + units - 1).div_euclid(units);
+    layer.clamp(0, POINTS_ASIDE as i64) as usize
+}
