@@ -151,7 +151,7 @@ impl Body {
         let (mut asked_stature, mut asked_mass) = (stature, mass);
         for _ in 0..LARGEST_STEPS {
             let betas = map.betas(person.sex, asked_stature, asked_mass, age);
-            if betas.iter().any(|beta| !(beta.abs() <= LARGEST_BETA)) {
+            if !betas.iter().all(|beta| beta.abs() <= LARGEST_BETA) {
                 break;
             }
             let body = Self::new(Arc::clone(&model), &betas)?;

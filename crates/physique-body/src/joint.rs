@@ -127,6 +127,21 @@ impl Joint {
             LeftWrist => "left_wrist", RightWrist => "right_wrist",
         }
     }
+
+    /// The part of the body that this joint moves first, in everyday words.
+    #[rustfmt::skip]
+    pub const fn part_name(self) -> &'static str {
+        match self {
+            Pelvis => "pelvis", LeftHip => "left thigh", RightHip => "right thigh",
+            Spine1 => "abdomen", LeftKnee => "left shin", RightKnee => "right shin",
+            Spine2 => "waist", LeftAnkle => "left foot", RightAnkle => "right foot",
+            Spine3 => "chest", LeftFoot => "left toes", RightFoot => "right toes",
+            Neck => "neck", LeftCollar => "left shoulder", RightCollar => "right shoulder",
+            Head => "head", LeftShoulder => "left upper arm", RightShoulder => "right upper arm",
+            LeftElbow => "left forearm", RightElbow => "right forearm",
+            LeftWrist => "left hand", RightWrist => "right hand",
+        }
+    }
 }
 
 impl fmt::Display for Joint {

@@ -34,8 +34,7 @@ impl JointRegressor {
                 regressor.weights.push(weight);
                 sum += f64::from(weight);
             }
-            // Written so that a sum that is not a number fails too.
-            if !((sum - 1.0).abs() < 1e-3) {
+            if sum.is_nan() || (sum - 1.0).abs() > 1e-3 {
                 return Err(Error::Model {
                     what: "a row of the joint regressor",
                     expected: "weights that sum to 1".into(),

@@ -1,1 +1,38 @@
-//! Face crate.
+//! Physique scores human motion for what a body could really perform.
+//!
+//! This is the face: the floors below are re-exported as [`body`], [`motion`] and [`geometry`].
+//!
+//! ```
+//! use physique::body::{Body, Joint, Sex, open_body};
+//! use physique::motion::{FrameRate, Motion};
+//! use glam::{Quat, Vec3};
+//!
+//! // One frame: the left forearm is folded back through the chest.
+//! let mut rotations = vec![Quat::IDENTITY; Joint::COUNT];
+//! rotations[Joint::LeftShoulder.index()] = Quat::from_rotation_z(-1.2);
+//! rotations[Joint::LeftElbow.index()] = Quat::from_rotation_z(-1.6);
+//! let motion = Motion::new(FrameRate::new(30.0)?, None, vec![Vec3::ZERO], rotations)?;
+//!
+//! let body = Body::mean(open_body()?, Sex::Neutral)?;
+//! let score = physique::score(&motion, &body)?;
+//! let found = score.self_intersection.expect("the native protocol measures it");
+//! assert!(found.mean_cm3 > 50.0);
+//! # Ok::<(), physique::Error>(())
+//! ```
+
+pub mod condition;
+pub mod error;
+mod frames;
+pub mod report;
+pub mod score;
+pub mod self_intersection;
+pub mod sia;
+
+pub use physique_body as body;
+pub use physique_geometry as geometry;
+pub use physique_motion as motion;
+
+pub use condition::Condition;
+pub use error::Error;
+pub use report::{MotionReport, Report};
+pub use score::{MotionScore, Protocol, ScoreOptions, Scorer, score};

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 /// Posing as the SMPL paper writes it, in f64 and over all joints: chain the joints' rigid
 /// transforms, take the rest pose off, blend 4x4 matrices by dense weights.
-pub fn reference_vertices(body: &Body, pose: &Pose<'_>) -> Vec<DVec3> {
+pub(crate) fn reference_vertices(body: &Body, pose: &Pose<'_>) -> Vec<DVec3> {
     let model = body.model();
     let joints = model.joint_count();
     let rest_joint = |joint: usize| body.rest_joints()[joint].as_dvec3();
@@ -66,7 +66,7 @@ pub fn reference_vertices(body: &Body, pose: &Pose<'_>) -> Vec<DVec3> {
 }
 
 /// Largest distance between two meshes, in metres.
-pub fn largest_distance(a: &[DVec3], b: &[Vec3]) -> f64 {
+pub(crate) fn largest_distance(a: &[DVec3], b: &[Vec3]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter()
         .zip(b)
@@ -75,12 +75,12 @@ pub fn largest_distance(a: &[DVec3], b: &[Vec3]) -> f64 {
 }
 
 /// Any rotation at every joint.
-pub fn any_rotations() -> impl Strategy<Value = Vec<Quat>> {
+pub(crate) fn any_rotations() -> impl Strategy<Value = Vec<Quat>> {
     prop::collection::vec(any_rotation(), Joint::COUNT)
 }
 
 /// A rotation about any axis by any angle.
-pub fn any_rotation() -> impl Strategy<Value = Quat> {
+pub(crate) fn any_rotation() -> impl Strategy<Value = Quat> {
     ([-1.0_f32..1.0, -1.0_f32..1.0, -1.0_f32..1.0], -3.1_f32..3.1).prop_filter_map(
         "an axis needs a length",
         |(axis, angle)| {
@@ -91,11 +91,11 @@ pub fn any_rotation() -> impl Strategy<Value = Quat> {
 }
 
 /// The quaternion of the mirror image (x to -x) of a rotation.
-pub fn mirrored(rotation: Quat) -> Quat {
+pub(crate) fn mirrored(rotation: Quat) -> Quat {
     Quat::from_xyzw(rotation.x, -rotation.y, -rotation.z, rotation.w)
 }
 
 /// A rotation in double precision, for references.
-pub fn double(rotation: Quat) -> DQuat {
+pub(crate) fn double(rotation: Quat) -> DQuat {
     rotation.as_dquat().normalize()
 }

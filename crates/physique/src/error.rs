@@ -1,0 +1,30 @@
+//! What can go wrong above the single floors.
+
+/// Why a motion could not be loaded or scored.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A body that does not work.
+    #[error(transparent)]
+    Body(#[from] physique_body::Error),
+    /// A file or motion that does not work.
+    #[error(transparent)]
+    Motion(#[from] physique_motion::Error),
+    /// A surface that cannot be measured.
+    #[error(transparent)]
+    Geometry(#[from] physique_geometry::Error),
+    /// A motion without frames has no score.
+    #[error("The motion has no frames: there is nothing to score.")]
+    NoFrames,
+    /// An unreadable `--fail-on` condition.
+    #[error(
+        "Condition `{condition}`: expected MEASURE OP NUMBER such as \
+         `self_intersection_mean_cm3>20`, found {found}."
+    )]
+    Condition {
+        /// The condition as given.
+        condition: String,
+        /// What is wrong with it.
+        found: String,
+    },
+}

@@ -1,0 +1,191 @@
+//! Runs the benchmarks and prints one table, with goals and, where asked for, peers.
+
+use std::process::Command;
+
+use anyhow::Result;
+use comfy_table::{CellAlignment, Table, presets};
+
+use crate::python::environment;
+use crate::shell::{cargo, output, root};
+
+/// What a benchmark must reach (milliseconds), and its stretch goal.
+struct Goal {
+    benchmark: &'static str,
+    goal: f64,
+    stretch: f64,
+}
+
+/// One benchmark's medians.
+struct Row {
+    crate_name: &'static str,
+    name: String,
+    milliseconds: f64,
+}
+
+const CRATES: [&str; 5] = [
+    "physique-geometry",
+    "physique-body",
+    "physique-motion",
+    "physique",
+    "physique-view",
+];
+
+const GOALS: [Goal; 3] = [
+    Goal {
+        benchmark: "sia_6_cm",
+        goal: 0.05,
+        stretch: 0.03,
+    },
+    Goal {
+        benchmark: "column_scan_1_cm",
+        goal: 0.6,
+        stretch: 0.3,
+    },
+    Goal {
+        benchmark: "triangle_pairs",
+        goal: 3.0,
+        stretch: 1.0,
+    },
+];
+
+pub(crate) fn run(peers: bool) -> Result<()> {
+    let mut rows = Vec::new();
+    for crate_name in CRATES {
+        println!("== {crate_name}");
+        let printed = output(crate_name, &mut cargo(&["bench", "--package", crate_name]))?;
+        rows.extend(medians(&printed).map(|(name, milliseconds)| Row {
+            crate_name,
+            name,
+            milliseconds,
+        }));
+    }
+    let mut table = Table::new();
+    table.load_style(presets::UTF8_HORIZONTAL_ONLY);
+    table.set_header([
+        "crate",
+        "benchmark",
+        "median, ms",
+        "goal, ms",
+        "stretch, ms",
+        "met",
+    ]);
+    for row in &rows {
+        let goal = GOALS.iter().find(|goal| goal.benchmark == row.name);
+        let met = goal.map_or("", |goal| match row.milliseconds {
+            ms if ms <= goal.stretch => "stretch",
+            ms if ms <= goal.goal => "goal",
+            _ => "no",
+        });
+        let limit = |limit: fn(&Goal) -> f64| goal.map_or(String::new(), |g| limit(g).to_string());
+        table.add_row([
+            row.crate_name.to_owned(),
+            row.name.clone(),
+            format!("{:.4}", row.milliseconds),
+            limit(|goal| goal.goal),
+            limit(|goal| goal.stretch),
+            met.to_owned(),
+        ]);
+    }
+    for column in 2..5 {
+        if let Some(column) = table.column_mut(column) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    println!("{table}");
+    if peers {
+        skinning_peer(&rows)?;
+    }
+    Ok(())
+}
+
+/// Times dense linear blend skinning in PyTorch on the same machine and prints the ratio.
+fn skinning_peer(rows: &[Row]) -> Result<()> {
+    let folder = root().join("benches/peers");
+    let python = environment("peers", &folder.join("requirements.txt"))?;
+    let printed = output(
+        "PyTorch skinning",
+        Command::new(python).arg(folder.join("skinning.py")),
+    )?;
+    print!("{printed}");
+    let peer = printed.lines().find_map(|line| {
+        line.strip_prefix("milliseconds a batch: ")?
+            .parse::<f64>()
+            .ok()
+    });
+    let ours = rows
+        .iter()
+        .find(|row| row.name == "batch_of_64_frames_all_threads");
+    if let (Some(peer), Some(ours)) = (peer, ours) {
+        println!(
+            "skinning 64 frames: PyTorch {peer:.3} ms, Physique {:.3} ms, ratio {:.1} (goal 15)",
+            ours.milliseconds,
+            peer / ours.milliseconds
+        );
+    }
+    Ok(())
+}
+
+/// Names and medians in milliseconds of divan's tree: the third column of each line with times.
+fn medians(printed: &str) -> impl Iterator<Item = (String, f64)> + '_ {
+    let mut group = String::new();
+    printed.lines().filter_map(move |line| {
+        let (name, rest) = line.trim_start_matches(['│', ' ']).split_once("─ ")?;
+        debug_assert!(name == "├" || name == "╰");
+        let mut words = rest.split_whitespace();
+        let name = words.next()?.to_owned();
+        let columns: Vec<_> = rest.split('│').collect();
+        let nested = line.starts_with(['│', ' ']);
+        match columns.get(2).and_then(|median| milliseconds(median)) {
+            Some(median) if nested => Some((format!("{group}/{name}"), median)),
+            Some(median) => Some((name, median)),
+            None => {
+                group = name;
+                None
+            }
+        }
+    })
+}
+
+/// "12.5 µs" in milliseconds.
+fn milliseconds(cell: &str) -> Option<f64> {
+    let (number, unit) = cell.trim().split_once(' ')?;
+    let scale = match unit.trim() {
+        "ns" => 1e-6,
+        "µs" => 1e-3,
+        "ms" => 1.0,
+        "s" => 1e3,
+        _ => return None,
+    };
+    Some(number.parse::<f64>().ok()? * scale)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::medians;
+
+    #[test]
+    fn reads_the_tree_that_divan_prints() {
+        let printed = "\
+Timer precision: 20 ns
+skinning                  fastest       │ slowest       │ median        │ mean          │ samples │ iters
+├─ batch                  542.3 µs      │ 2.042 ms      │ 690.2 µs      │ 711 µs        │ 100     │ 100
+│                         118 Kitem/s   │ 31.34 Kitem/s │ 92.71 Kitem/s │ 90 Kitem/s    │         │
+├─ sizes                                │               │               │               │         │
+│  ├─ 64                  1.5 ms        │ 2.042 ms      │ 1.7 ms        │ 711 µs        │ 100     │ 100
+│  ╰─ 128                 1.5 s         │ 2.042 s       │ 1.7 s         │ 711 µs        │ 100     │ 100
+╰─ one                    17.61 µs      │ 111.2 µs      │ 17.73 µs      │ 18.74 µs      │ 100     │ 100
+";
+        let found: Vec<_> = medians(printed).collect();
+        let expected = [
+            ("batch", 0.6902),
+            ("sizes/64", 1.7),
+            ("sizes/128", 1700.0),
+            ("one", 0.01773),
+        ];
+        assert_eq!(found.len(), expected.len());
+        for ((name, ms), (expected_name, expected_ms)) in found.iter().zip(expected) {
+            assert_eq!(name, expected_name);
+            assert!((ms / expected_ms - 1.0).abs() < 1e-9, "{name}: {ms}");
+        }
+    }
+}
