@@ -135,6 +135,37 @@ impl SkeletonClip {
         })
     }
 
+    /// The clip with its roots turned so that Y points up, and `conversion` to tell of it.
+    pub(crate) fn turned_upright(mut self, conversion: Conversion) -> Result<Self, Error> {
+        if conversion.up_axis != UpAxis::Y {
+            let turn = conversion.up_axis.y_up_from_file();
+            let mut joints = self.skeleton.joints().to_vec();
+            let is_root: Vec<bool> = joints.iter().map(|joint| joint.parent.is_none()).collect();
+            for joint in joints.iter_mut().filter(|joint| joint.parent.is_none()) {
+                joint.rest_rotation = (turn * joint.rest_rotation).normalize();
+                joint.rest_translation = turn * joint.rest_translation;
+            }
+            self.skeleton = Skeleton::new(joints)?;
+            for frame in self.rotations.chunks_exact_mut(is_root.len().max(1)) {
+                for (rotation, _) in frame.iter_mut().zip(&is_root).filter(|(_, root)| **root) {
+                    *rotation = (turn * *rotation).normalize();
+                }
+            }
+            for frame in self
+                .translations
+                .chunks_exact_mut(self.translated_joints.len().max(1))
+            {
+                for (translation, &joint) in frame.iter_mut().zip(&self.translated_joints) {
+                    if is_root[joint] {
+                        *translation = turn * *translation;
+                    }
+                }
+            }
+        }
+        self.conversion = conversion;
+        Ok(self)
+    }
+
     /// The skeleton.
     pub const fn skeleton(&self) -> &Skeleton {
         &self.skeleton
@@ -164,6 +195,14 @@ impl SkeletonClip {
     /// Joints whose translation the clip animates.
     pub fn translated_joints(&self) -> &[usize] {
         &self.translated_joints
+    }
+
+    /// Whether the clip animates the joint's translation.
+    ///
+    /// # Panics
+    /// When there is no such joint.
+    pub fn moves(&self, joint: usize) -> bool {
+        self.translation_slot[joint].is_some()
     }
 
     /// `parent_from_joint` rotation in a frame.
@@ -204,4 +243,10 @@ impl SkeletonClip {
         self.pose_into(frame, &mut pose);
         pose
     }
+}
+
+/// At most `most` of `frames` frames, evenly spread.
+pub(crate) fn spread(frames: usize, most: usize) -> impl Iterator<Item = usize> {
+    let step = frames.div_ceil(most.max(1)).max(1);
+    (0..frames).step_by(step)
 }

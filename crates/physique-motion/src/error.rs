@@ -102,4 +102,13 @@ pub enum Error {
         /// What is wrong with it.
         source: crate::npz::ArrayError,
     },
+    /// A skeleton in which no body was found.
+    #[error("No human body was found in the skeleton: {problem}.")]
+    NotHuman {
+        /// What is missing or wrong.
+        problem: String,
+    },
+    /// A clip without frames.
+    #[error("The clip holds no frames.")]
+    NoFrames,
 }

@@ -4,15 +4,22 @@
 //! at the door and writers convert back.
 
 pub mod amass;
+pub mod bvh;
 pub mod clip;
+pub mod deep_mimic;
+pub mod embedded;
 pub mod error;
 pub mod frame_rate;
 pub mod limits;
+pub mod mapping;
 pub mod motion;
+pub mod native;
 pub mod npz;
 pub mod read;
+mod read_file;
 pub mod recording;
 pub mod skeleton;
+mod write_file;
 
 pub use clip::{Conversion, SkeletonClip, UpAxis};
 pub use error::Error;

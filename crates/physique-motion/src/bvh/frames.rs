@@ -1,0 +1,192 @@
+//! The `MOTION` section: frame count, frame time, numbers.
+
+use super::{
+    hierarchy::BvhJoint,
+    text::{Text, format_error, is_comment},
+};
+use crate::{Error, FrameRate, Limits};
+
+/// The numbers of a file.
+pub(super) struct BvhFrames {
+    pub(super) frame_rate: FrameRate,
+    pub(super) frame_count: usize,
+    /// Numbers a frame.
+    pub(super) columns: usize,
+    /// `[frame_count][columns]`, in degrees and the file's unit.
+    pub(super) values: Vec<f32>,
+}
+
+impl BvhFrames {
+    pub(super) fn frame(&self, frame: usize) -> &[f32] {
+        &self.values[frame * self.columns..(frame + 1) * self.columns]
+    }
+}
+
+/// Reads what follows the word `MOTION`; `frame_rate` overrides the file's.
+pub(super) fn parse(
+    text: &mut Text<'_>,
+    joints: &[BvhJoint],
+    frame_rate: Option<FrameRate>,
+    limits: &Limits,
+) -> Result<BvhFrames, Error> {
+    text.expect("Frames:")?;
+    let declared = text.count("the number of frames")?;
+    if declared > limits.frames as u64 {
+        return Err(Error::Limit {
+            path: text.path().into(),
+            what: "the number of frames",
+            found: declared,
+            limit: limits.frames as u64,
+        });
+    }
+    let frame_count = declared as usize;
+    text.expect("Frame")?;
+    text.expect("Time:")?;
+    let seconds = text.number("the frame time in seconds")?;
+    let frame_rate = match frame_rate {
+        Some(frame_rate) => frame_rate,
+        None => FrameRate::new(customary_rate(seconds)).map_err(|_| {
+            let found = seconds.to_string();
+            text.error("a positive frame time", Some(found.as_bytes()))
+        })?,
+    };
+    let columns = joints.iter().map(|joint| joint.channels.len()).sum();
+    let values = numbers(text, joints, frame_count, columns)?;
+    Ok(BvhFrames {
+        frame_rate,
+        frame_count,
+        columns,
+        values,
+    })
+}
+
+fn numbers(
+    text: &mut Text<'_>,
+    joints: &[BvhJoint],
+    frame_count: usize,
+    columns: usize,
+) -> Result<Vec<f32>, Error> {
+    // A number takes two bytes at least: a header that promises more than the file holds
+    // cannot make us allocate it.
+    let promised = frame_count.saturating_mul(columns);
+    let mut values = Vec::with_capacity(promised.min(text.remaining() / 2 + 1));
+    let mut frame = 0;
+    while columns > 0 {
+        let Some((line, content)) = text.data_line() else {
+            break;
+        };
+        let place = |column| place(joints, line, frame, column);
+        if frame == frame_count {
+            let expected = format!("the end of the file after {frame_count} frames");
+            return Err(format_error(
+                text.path(),
+                place(None),
+                &expected,
+                Some(content),
+            ));
+        }
+        let start = values.len();
+        let words = content
+            .split(u8::is_ascii_whitespace)
+            .filter(|word| !word.is_empty());
+        for word in words.take_while(|word| !is_comment(word)) {
+            let column = values.len() - start;
+            if column == columns {
+                let expected = format!("{columns} numbers, as the hierarchy has channels");
+                return Err(format_error(
+                    text.path(),
+                    place(None),
+                    &expected,
+                    Some(word),
+                ));
+            }
+            let number = std::str::from_utf8(word)
+                .ok()
+                .and_then(|word| word.parse().ok());
+            match number {
+                Some(number) if f32::is_finite(number) => values.push(number),
+                _ => {
+                    let place = place(Some(column));
+                    return Err(format_error(
+                        text.path(),
+                        place,
+                        "a finite number",
+                        Some(word),
+                    ));
+                }
+            }
+        }
+        let found = values.len() - start;
+        if found < columns {
+            let expected = format!("{columns} numbers, as the hierarchy has channels");
+            let found = found.to_string();
+            return Err(format_error(
+                text.path(),
+                place(None),
+                &expected,
+                Some(found.as_bytes()),
+            ));
+        }
+        frame += 1;
+    }
+    if columns > 0 && frame < frame_count {
+        let expected = format!("{frame_count} frames, as the header says");
+        let found = frame.to_string();
+        let place = format!("line {}", text.line());
+        return Err(format_error(
+            text.path(),
+            place,
+            &expected,
+            Some(found.as_bytes()),
+        ));
+    }
+    Ok(values)
+}
+
+fn place(joints: &[BvhJoint], line: usize, frame: usize, column: Option<usize>) -> String {
+    let channel = column.and_then(|column| {
+        let joint = joints.iter().find(|joint| {
+            (joint.first_column..joint.first_column + joint.channels.len()).contains(&column)
+        })?;
+        let channel = joint.channels[column - joint.first_column];
+        Some(format!(", joint {}, {}", joint.name, channel.keyword()))
+    });
+    format!("line {line}, frame {frame}{}", channel.unwrap_or_default())
+}
+
+/// Frames a second for a frame time, which exporters print with few digits: 0.0333333 is 30.
+fn customary_rate(seconds: f64) -> f64 {
+    const RATES: [f64; 20] = [
+        10.0, 12.0, 12.5, 15.0, 20.0, 23.976, 24.0, 25.0, 29.97, 30.0, 48.0, 50.0, 59.94, 60.0,
+        72.0, 90.0, 100.0, 119.88, 120.0, 240.0,
+    ];
+    let rate = 1.0 / seconds;
+    let distance = |customary: f64| (rate / customary - 1.0).abs();
+    RATES
+        .into_iter()
+        .filter(|&customary| distance(customary) < 5e-4)
+        .min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
+        .unwrap_or(rate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::customary_rate;
+
+    #[test]
+    fn few_digits_of_a_frame_time_name_the_customary_rate() {
+        for (seconds, rate) in [
+            (0.0333333, 30.0),
+            (0.03333, 30.0),
+            (0.0333667, 29.97),
+            (0.016667, 60.0),
+            (0.00833333, 120.0),
+            (0.00833, 120.0),
+            (0.0416667, 24.0),
+        ] {
+            assert_eq!(customary_rate(seconds), rate, "{seconds}");
+        }
+        assert_eq!(customary_rate(0.03), 1.0 / 0.03);
+        assert!(customary_rate(0.0).is_infinite());
+    }
+}

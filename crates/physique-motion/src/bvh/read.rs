@@ -1,0 +1,220 @@
+//! From the file's text to a clip in metres with Y up.
+
+use std::{fs::File, io::Read as _, path::Path};
+
+use glam::{Quat, Vec3};
+
+use super::{
+    channel, frames,
+    frames::BvhFrames,
+    hierarchy,
+    hierarchy::BvhJoint,
+    infer::{self, LengthUnit, PositionChannels},
+    text::Text,
+};
+use crate::{
+    Conversion, Error, FrameRate, Limits, Skeleton, SkeletonClip, SkeletonJoint, UpAxis, mapping,
+};
+
+/// What to take for granted instead of inferring it; see [`crate::bvh`].
+#[derive(Clone, Debug, Default)]
+pub struct BvhOptions {
+    /// How much a file may ask for.
+    pub limits: Limits,
+    /// The file's length unit.
+    pub unit: Option<LengthUnit>,
+    /// The file's up axis.
+    pub up_axis: Option<UpAxis>,
+    /// What position channels do to a joint's offset.
+    pub position_channels: Option<PositionChannels>,
+    /// The true frame rate, where the header lies.
+    pub frame_rate: Option<FrameRate>,
+}
+
+/// Reads a BVH file: about 100 MB a second.
+///
+/// # Errors
+/// [`Error::Io`]; [`Error::Limit`]; [`Error::Format`] with the line, and in a frame the frame,
+/// joint and channel.
+pub fn read(path: impl AsRef<Path>, options: &BvhOptions) -> Result<SkeletonClip, Error> {
+    let path = path.as_ref();
+    let io = |source| Error::Io {
+        path: path.into(),
+        source,
+    };
+    let file = File::open(path).map_err(io)?;
+    let length = file.metadata().map_err(io)?.len();
+    let limit = options.limits.bytes;
+    let mut bytes = Vec::new();
+    if length <= limit {
+        // A pipe has no length beforehand, so the limit holds while reading, too.
+        file.take(limit.saturating_add(1))
+            .read_to_end(&mut bytes)
+            .map_err(io)?;
+    }
+    let found = length.max(bytes.len() as u64);
+    if found > limit {
+        return Err(Error::Limit {
+            path: path.into(),
+            what: "the size in bytes",
+            found,
+            limit,
+        });
+    }
+    parse(&bytes, path, options)
+}
+
+/// Reads the text of a BVH file; `path` only names it in errors.
+///
+/// # Errors
+/// As [`read`], without [`Error::Io`].
+pub fn parse(
+    bytes: &[u8],
+    path: impl AsRef<Path>,
+    options: &BvhOptions,
+) -> Result<SkeletonClip, Error> {
+    let path = path.as_ref();
+    let mut text = Text::new(path, bytes);
+    let joints = hierarchy::parse(&mut text, &options.limits)?;
+    let frames = frames::parse(&mut text, &joints, options.frame_rate, &options.limits)?;
+    let clip_bytes = (frames.frame_count as u64)
+        .saturating_mul(joints.len() as u64)
+        .saturating_mul(size_of::<Quat>() as u64);
+    if clip_bytes > options.limits.bytes {
+        return Err(Error::Limit {
+            path: path.into(),
+            what: "the size of frames x joints rotations in bytes",
+            found: clip_bytes,
+            limit: options.limits.bytes,
+        });
+    }
+    resolve(&joints, &frames, options)
+}
+
+/// Decides unit, axes and position channels, then builds the clip.
+fn resolve(
+    joints: &[BvhJoint],
+    frames: &BvhFrames,
+    options: &BvhOptions,
+) -> Result<SkeletonClip, Error> {
+    let mut notes = Vec::new();
+    let moved_roots = joints
+        .iter()
+        .any(|joint| joint.parent.is_none() && joint.has_position() && joint.offset != Vec3::ZERO);
+    let vote = infer::vote_position_channels(joints, frames);
+    let stated = options.position_channels.or(vote);
+    if let (Some(vote), None) = (vote, options.position_channels) {
+        notes.push(match vote {
+            PositionChannels::Replace => {
+                "position channels replace the offsets, since below the root they repeat them"
+            }
+            PositionChannels::Add => {
+                "position channels add to the offsets, since below the root they lack them"
+            }
+        });
+    }
+    let mut notes: Vec<String> = notes.into_iter().map(Into::into).collect();
+
+    let mut meaning = stated.unwrap_or(PositionChannels::Add);
+    let unit = options.unit.unwrap_or_else(|| {
+        let first = (frames.frame_count > 0).then(|| frames.frame(0));
+        let bone = |joint: usize| translation(&joints[joint], first, meaning).length();
+        let (unit, note) = infer::unit(infer::tip_to_tip(joints, bone));
+        notes.push(note);
+        unit
+    });
+    let metres = unit.metres() as f32;
+    let skeleton = skeleton(joints, metres)?;
+    let mut clip = clip(&skeleton, joints, frames, meaning, metres)?;
+
+    let up_axis = options.up_axis.unwrap_or_else(|| {
+        let human = mapping::find_joints(&skeleton).map(|found| found.joints);
+        match human.map(|human| infer::up_axis(&clip, &human)) {
+            Some(UpAxis::Z) => {
+                notes
+                    .push("up axis: Z, since the shoulders stand above the ankles along it".into());
+                UpAxis::Z
+            }
+            _ => UpAxis::Y,
+        }
+    });
+    if stated.is_none() && moved_roots {
+        let offset = joints[0].offset * metres;
+        if infer::root_offset_adds(&clip, offset, up_axis) {
+            notes
+                .push("the root's channels add to its offset: so the feet reach the ground".into());
+        } else {
+            notes.push(
+                "the root's channels replace its offset: so the feet reach the ground".into(),
+            );
+            meaning = PositionChannels::Replace;
+            clip = self::clip(&skeleton, joints, frames, meaning, metres)?;
+        }
+    }
+    let conversion = Conversion {
+        metres_per_unit: unit.metres(),
+        up_axis,
+        notes,
+    };
+    clip.turned_upright(conversion)
+}
+
+fn skeleton(joints: &[BvhJoint], metres: f32) -> Result<Skeleton, Error> {
+    let joints = joints.iter().map(|joint| SkeletonJoint {
+        name: joint.name.clone(),
+        parent: joint.parent,
+        rest_translation: joint.offset * metres,
+        rest_rotation: Quat::IDENTITY,
+        end_sites: joint.end_sites.iter().map(|&site| site * metres).collect(),
+    });
+    Skeleton::new(joints.collect())
+}
+
+fn clip(
+    skeleton: &Skeleton,
+    joints: &[BvhJoint],
+    frames: &BvhFrames,
+    meaning: PositionChannels,
+    metres: f32,
+) -> Result<SkeletonClip, Error> {
+    let moved = (0..joints.len()).filter(|&joint| joints[joint].has_position());
+    let moved: Vec<usize> = moved.collect();
+    let mut rotations = Vec::with_capacity(frames.frame_count * joints.len());
+    let mut translations = Vec::with_capacity(frames.frame_count * moved.len());
+    for frame in (0..frames.frame_count).map(|frame| frames.frame(frame)) {
+        rotations.extend(
+            joints
+                .iter()
+                .map(|joint| channel::rotation(&joint.channels, joint.values(frame))),
+        );
+        translations.extend(
+            moved
+                .iter()
+                .map(|&joint| translation(&joints[joint], Some(frame), meaning) * metres),
+        );
+    }
+    let conversion = Conversion::default();
+    let rate = frames.frame_rate;
+    SkeletonClip::new(
+        skeleton.clone(),
+        rate,
+        conversion,
+        rotations,
+        moved,
+        translations,
+    )
+}
+
+/// A joint's origin in its parent's frame, in the file's unit.
+fn translation(joint: &BvhJoint, frame: Option<&[f32]>, meaning: PositionChannels) -> Vec3 {
+    let Some(frame) = frame else {
+        return joint.offset;
+    };
+    let values = joint.values(frame);
+    match meaning {
+        PositionChannels::Replace => channel::position(&joint.channels, values, joint.offset),
+        PositionChannels::Add => {
+            joint.offset + channel::position(&joint.channels, values, Vec3::ZERO)
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! Frames of the source to frames of the body.
+
+use glam::{Quat, Vec3};
+use physique_body::Joint;
+
+use super::{
+    alignment::{AlignedBy, Alignment},
+    body_rest::BodyRest,
+    figure::ball_of_foot,
+    fit_error::{FitError, FitErrorGatherer},
+    human_joints::HumanJoints,
+    legs::Leg,
+    soles::Soles,
+    spine::SpineWeights,
+};
+use crate::{Error, Motion, SkeletonClip, SkeletonPose};
+
+/// All that is constant over a clip.
+pub(super) struct Retarget<'a> {
+    human: &'a HumanJoints,
+    body: &'a BodyRest,
+    alignment: Alignment,
+    spine: SpineWeights,
+    soles: Soles,
+    /// Body size over source size.
+    scale: f32,
+    plant_feet: bool,
+    /// By side: the joint and place in its frame of the ball of the foot.
+    balls: [Option<(usize, Vec3)>; 2],
+}
+
+/// What a run found out.
+#[derive(Clone, Debug)]
+pub(super) struct Outcome {
+    pub(super) aligned_by: AlignedBy,
+    pub(super) scale: f32,
+    pub(super) ground: f32,
+    pub(super) fit_error: FitError,
+    pub(super) largest_leg_correction_degrees: f32,
+    pub(super) notes: Vec<String>,
+}
+
+/// The body's joints of a leg.
+const LEGS: [[Joint; 4]; 2] = [
+    [
+        Joint::LeftHip,
+        Joint::LeftKnee,
+        Joint::LeftAnkle,
+        Joint::LeftFoot,
+    ],
+    [
+        Joint::RightHip,
+        Joint::RightKnee,
+        Joint::RightAnkle,
+        Joint::RightFoot,
+    ],
+];
+
+impl<'a> Retarget<'a> {
+    pub(super) fn new(
+        clip: &SkeletonClip,
+        human: &'a HumanJoints,
+        body: &'a BodyRest,
+        plant_feet: bool,
+    ) -> Result<Self, Error> {
+        let pose = clip.pose(0);
+        let distance = |a: usize, b: usize| pose.positions[a].distance(pose.positions[b]);
+        let legs = human
+            .sides()
+            .map(|limbs| distance(limbs.hip, limbs.knee) + distance(limbs.knee, limbs.ankle));
+        let leg = (legs[0] + legs[1]) / 2.0;
+        if !(leg.is_finite() && leg > 1e-3) {
+            return Err(Error::NotHuman {
+                problem: format!("its legs are {leg} m long"),
+            });
+        }
+        let scale = body.leg_length() / leg;
+        Ok(Self {
+            human,
+            body,
+            alignment: Alignment::find(clip, human, body),
+            spine: SpineWeights::new(human, &pose, body),
+            soles: Soles::measure(clip, human, body),
+            scale,
+            plant_feet,
+            balls: human
+                .sides()
+                .map(|limbs| ball_of_foot(clip.skeleton(), limbs)),
+        })
+    }
+
+    /// Maps all frames from `first_frame` on.
+    pub(super) fn run(
+        &self,
+        clip: &SkeletonClip,
+        first_frame: usize,
+    ) -> Result<(Motion, Outcome), Error> {
+        let ground = self.ground();
+        let frames = clip.frame_count() - first_frame;
+        let mut root_translation = Vec::with_capacity(frames);
+        let mut rotations = Vec::with_capacity(frames * Joint::COUNT);
+        let mut errors = FitErrorGatherer::default();
+        let mut largest_turn = 0.0f32;
+        let mut pose = SkeletonPose::default();
+        for frame in first_frame..clip.frame_count() {
+            clip.pose_into(frame, &mut pose);
+            let mut world = self.orient(&pose);
+            let pelvis = self.place_pelvis(&pose, &world, ground);
+            if self.plant_feet {
+                let turn = self.plant_feet(&pose, &mut world, pelvis, ground);
+                largest_turn = largest_turn.max(turn);
+            }
+            let positions = self.positions(&world, pelvis);
+            for joint in Joint::ALL {
+                if let Some(source) = self.human.source_of(joint) {
+                    let goal = self.scaled(pose.positions[source], ground);
+                    errors.add(joint, goal.distance(positions[joint.index()]));
+                }
+            }
+            root_translation.push(pelvis - self.body.joint(Joint::Pelvis));
+            rotations.extend(Joint::ALL.map(|joint| match joint.parent() {
+                None => world[joint.index()],
+                Some(parent) => world[parent.index()].inverse() * world[joint.index()],
+            }));
+        }
+        let outcome = Outcome {
+            aligned_by: self.alignment.by,
+            scale: self.scale,
+            ground,
+            fit_error: errors.finish(),
+            largest_leg_correction_degrees: largest_turn,
+            notes: self.notes(ground),
+        };
+        Ok((
+            Motion::new(clip.frame_rate(), None, root_translation, rotations)?,
+            outcome,
+        ))
+    }
+
+    /// Height in the source's world that becomes height 0: where the soles of a standing foot
+    /// are, unless the feet never come down to the source's height 0.
+    fn ground(&self) -> f32 {
+        /// A foot that stays this much over height 0 is in the air rather than on the ground.
+        const IN_THE_AIR: f32 = 0.12;
+        let sole = self.soles.ankle_height - self.body.height(Joint::LeftAnkle) / self.scale;
+        if sole > IN_THE_AIR { 0.0 } else { sole }
+    }
+
+    fn notes(&self, ground: f32) -> Vec<String> {
+        let mut notes = Vec::new();
+        if ground.abs() > 0.05 {
+            notes.push(format!(
+                "the source's feet stand {ground:.2} m above its height 0"
+            ));
+        }
+        notes
+    }
+
+    /// A place of the source's world in the body's size, over the body's ground.
+    fn scaled(&self, position: Vec3, ground: f32) -> Vec3 {
+        (position - Vec3::Y * ground) * self.scale
+    }
+
+    /// World orientations of the body's joints.
+    fn orient(&self, pose: &SkeletonPose) -> [Quat; Joint::COUNT] {
+        let mut world = [Quat::IDENTITY; Joint::COUNT];
+        self.spine
+            .orient(self.human, &self.alignment, pose, &mut world);
+        for joint in Joint::ALL {
+            let is_trunk = matches!(
+                joint,
+                Joint::Pelvis
+                    | Joint::Spine1
+                    | Joint::Spine2
+                    | Joint::Spine3
+                    | Joint::Neck
+                    | Joint::Head
+            );
+            let Some(parent) = joint.parent().filter(|_| !is_trunk) else {
+                continue;
+            };
+            world[joint.index()] = match self.human.source_of(joint) {
+                Some(source) => self.alignment.world_from_body(pose, source),
+                None => world[parent.index()],
+            };
+        }
+        world
+    }
+
+    /// Where the pelvis is when the middle of the hips is where the source has it.
+    fn place_pelvis(&self, pose: &SkeletonPose, world: &[Quat; Joint::COUNT], ground: f32) -> Vec3 {
+        let [left, right] = self.human.hips().map(|hip| pose.positions[hip]);
+        let hips = self.scaled((left + right) / 2.0, ground);
+        let from_pelvis = self.body.middle_of_hips() - self.body.joint(Joint::Pelvis);
+        hips - world[Joint::Pelvis.index()] * from_pelvis
+    }
+
+    /// Turns thighs and shins until ankles and soles are where the scaled source has them; gives
+    /// the largest turn in degrees.
+    fn plant_feet(
+        &self,
+        pose: &SkeletonPose,
+        world: &mut [Quat; Joint::COUNT],
+        pelvis: Vec3,
+        ground: f32,
+    ) -> f32 {
+        let mut largest = 0.0f32;
+        for (side, [hip, knee, ankle, foot]) in LEGS.into_iter().enumerate() {
+            let limbs = self.human.sides()[side];
+            let mut goal = self.scaled(pose.positions[limbs.ankle], ground);
+            if let Some((joint, offset)) = self.balls[side] {
+                // The lower of heel side and ball is what touches the ground: at the same height
+                // over it as in the source.
+                let ball = pose.positions[joint] + pose.rotations[joint] * offset;
+                let source = (pose.positions[limbs.ankle].y - self.soles.ankle_height)
+                    .min(ball.y - self.soles.ball_height)
+                    * self.scale;
+                let sole = self.scaled(Vec3::Y * self.soles.ankle_height, ground).y
+                    - self.body.height(ankle);
+                let ball = (world[ankle.index()] * self.body.bone(ankle, foot)).y + goal.y;
+                let result = (goal.y - self.body.height(ankle)).min(ball - self.body.height(foot));
+                goal.y += source + sole - result;
+            }
+            let before = Leg {
+                hip: pelvis + world[0] * self.body.offset(hip),
+                bones: [self.body.bone(hip, knee), self.body.bone(knee, ankle)],
+                world_from_bone: [world[hip.index()], world[knee.index()]],
+            };
+            let after = before.reaching(goal);
+            for (bone, joint) in [hip, knee].into_iter().enumerate() {
+                let turn = before.world_from_bone[bone].angle_between(after.world_from_bone[bone]);
+                largest = largest.max(turn.to_degrees());
+                world[joint.index()] = after.world_from_bone[bone];
+            }
+        }
+        largest
+    }
+
+    /// Positions of all joints in the world.
+    fn positions(&self, world: &[Quat; Joint::COUNT], pelvis: Vec3) -> [Vec3; Joint::COUNT] {
+        let mut positions = [pelvis; Joint::COUNT];
+        for joint in Joint::ALL {
+            if let Some(parent) = joint.parent() {
+                positions[joint.index()] =
+                    positions[parent.index()] + world[parent.index()] * self.body.offset(joint);
+            }
+        }
+        positions
+    }
+}
