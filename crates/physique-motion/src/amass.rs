@@ -32,8 +32,8 @@ mod reader;
 mod turn;
 mod writer;
 
-pub use reader::read_amass;
-pub use writer::{WrittenAmass, write_amass};
+pub use reader::{from_archive, read};
+pub use writer::{AmassFile, to_npz, write};
 
 use glam::Vec3;
 

@@ -43,7 +43,8 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// A motion from its arrays; rotations are normalised.
+    /// A motion from its arrays. Rotations whose length is off by more than rounding are
+    /// normalised; others keep every bit, so that files come back as they were written.
     ///
     /// # Errors
     /// [`Error::RotationCount`] when `rotations` is not `[frames][22]`; [`Error::NotFinite`] with
@@ -80,7 +81,9 @@ impl Motion {
                 let joint = Joint::ALL[index % Joint::COUNT];
                 return Err(not_finite(index / Joint::COUNT, joint, "the rotation"));
             }
-            *rotation = *rotation / length;
+            if (length - 1.0).abs() > 1e-6 {
+                *rotation = *rotation / length;
+            }
         }
         Ok(Self {
             frame_rate,

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use glam::Vec3;
 
-use crate::{FrameRate, Limits, UpAxis};
+use crate::npz::{Archive, ArrayLimits};
+use crate::{Error, FrameRate, Limits, UpAxis};
 
 /// What a reader needs to know that a file may not say.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +29,22 @@ impl Default for ReadOptions {
             amass_up: UpAxis::Z,
         }
     }
+}
+
+/// Opens the bytes of an archive within the limits; `path` names it in errors.
+pub(crate) fn open_archive(
+    bytes: Vec<u8>,
+    path: &Path,
+    options: &ReadOptions,
+) -> Result<Archive, Error> {
+    let limits = ArrayLimits {
+        bytes: options.limits.bytes,
+        ..ArrayLimits::default()
+    };
+    Archive::open(bytes, limits).map_err(|source| Error::Array {
+        path: path.into(),
+        source,
+    })
 }
 
 /// Name of a file without folder and extension.

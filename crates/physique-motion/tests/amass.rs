@@ -2,11 +2,9 @@
 
 #![allow(clippy::unwrap_used)]
 
-use std::path::Path;
-
 use glam::{Quat, Vec3};
 use physique_body::Joint;
-use physique_motion::amass::{SMPL_REST_PELVIS, read_amass, write_amass};
+use physique_motion::amass::{self, SMPL_REST_PELVIS};
 use physique_motion::npz::{Archive, ArchiveWriter, ArrayLimits};
 use physique_motion::{
     Error, FrameRate, Limits, Motion, MotionShape, ReadOptions, Recording, ShapeSpace, UpAxis,
@@ -27,7 +25,7 @@ fn read(bytes: &[u8], options: &ReadOptions) -> Result<Recording, Error> {
         path: "walk.npz".into(),
         source,
     })?;
-    read_amass(Path::new("walk.npz"), &mut archive, options)
+    amass::from_archive(&mut archive, "walk.npz", options)
 }
 
 /// A file of the named arrays, each filled with 0.1.
@@ -301,7 +299,7 @@ fn betas_of_the_open_body_are_not_passed_off_as_smpl() {
         vec![Quat::IDENTITY; 22],
     )
     .unwrap();
-    let written = write_amass(&motion, None).unwrap();
+    let written = amass::to_npz(&motion, None).unwrap();
     assert!(written.notes[0].contains("open body"));
     let betas = open(&written.bytes)
         .array("betas")
@@ -339,7 +337,7 @@ proptest! {
         let translations = translations.into_iter().map(Vec3::from_array).collect();
         let motion = Motion::new(FrameRate::new(rate).unwrap(), Some(shape), translations, rotations).unwrap();
         let pelvis = Vec3::from_array(pelvis);
-        let written = write_amass(&motion, Some(pelvis)).unwrap();
+        let written = amass::to_npz(&motion, Some(pelvis)).unwrap();
         let options = ReadOptions { rest_pelvis: Some(pelvis), ..ReadOptions::default() };
         let back = read(&written.bytes, &options).unwrap().motion;
 

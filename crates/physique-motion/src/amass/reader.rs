@@ -7,21 +7,34 @@ use physique_body::Joint;
 
 use super::{SMPL_REST_PELVIS, SMPLH_JOINTS, SMPLX_JOINTS, SMPLX_REST_PELVIS, turn};
 use crate::npz::{Archive, Array, ArrayError};
+use crate::read::{open_archive, stem};
+use crate::read_file::read_file;
 use crate::{Error, FrameRate, Motion, MotionShape, ReadOptions, Recording, ShapeSpace};
 
 /// Joints of SMPL: the body's 22 and one of each hand.
 const SMPL_JOINTS: usize = 24;
 
-/// Reads an opened AMASS archive; `path` names it in errors.
+/// Reads an AMASS file.
+///
+/// # Errors
+/// [`Error::Io`], and those of [`from_archive`].
+pub fn read(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Recording, Error> {
+    let path = path.as_ref();
+    let mut archive = open_archive(read_file(path, options.limits.bytes)?, path, options)?;
+    from_archive(&mut archive, path, options)
+}
+
+/// Reads an opened AMASS archive; `path` only names it in errors.
 ///
 /// # Errors
 /// [`Error::Array`] for broken arrays, [`Error::Format`] for missing or disagreeing ones and for
 /// numbers that are not finite, [`Error::Limit`] for too many frames.
-pub fn read_amass(
-    path: &Path,
+pub fn from_archive(
     archive: &mut Archive,
+    path: impl AsRef<Path>,
     options: &ReadOptions,
 ) -> Result<Recording, Error> {
+    let path = path.as_ref();
     Reader {
         path,
         archive,
@@ -83,7 +96,7 @@ impl Reader<'_> {
             .map_err(|error| self.format("the rotations", "finite numbers", &error.to_string()))?;
         Ok(Recording {
             motion,
-            name: crate::read::stem(self.path),
+            name: stem(self.path),
             rest_pelvis,
             source: None,
             licence: None,

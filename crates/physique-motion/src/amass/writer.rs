@@ -1,22 +1,45 @@
 //! Writing AMASS.
 
+use std::path::Path;
+
 use glam::Vec3;
 use physique_body::Joint;
 
 use super::{SMPL_REST_PELVIS, SMPLH_JOINTS, SMPLX_JOINTS, SMPLX_REST_PELVIS, turn};
 use crate::npz::{ArchiveWriter, ArrayError};
-use crate::{Motion, ShapeSpace, UpAxis};
+use crate::write_file::write_file;
+use crate::{Error, Motion, ShapeSpace, UpAxis};
 
 /// Shape coefficients that AMASS stores.
 const BETAS: usize = 16;
 
 /// An AMASS file in memory.
 #[derive(Clone, Debug)]
-pub struct WrittenAmass {
+pub struct AmassFile {
     /// The bytes of the `.npz`.
     pub bytes: Vec<u8>,
     /// What the format could not carry: full sentences.
     pub notes: Vec<String>,
+}
+
+/// Writes a motion as AMASS `.npz`, beside it first, then renamed; see [`to_npz`].
+///
+/// Returns what the format could not carry: full sentences.
+///
+/// # Errors
+/// [`Error::Io`], and [`Error::Array`] for a motion that outgrows the ZIP format.
+pub fn write(
+    path: impl AsRef<Path>,
+    motion: &Motion,
+    rest_pelvis: Option<Vec3>,
+) -> Result<Vec<String>, Error> {
+    let path = path.as_ref();
+    let file = to_npz(motion, rest_pelvis).map_err(|source| Error::Array {
+        path: path.into(),
+        source,
+    })?;
+    write_file(path, &file.bytes)?;
+    Ok(file.notes)
 }
 
 /// The motion as an AMASS `.npz`, Z up, with 64-bit numbers and flat hands.
@@ -28,7 +51,7 @@ pub struct WrittenAmass {
 ///
 /// # Errors
 /// [`ArrayError::Write`] for a motion that outgrows the ZIP format.
-pub fn write_amass(motion: &Motion, rest_pelvis: Option<Vec3>) -> Result<WrittenAmass, ArrayError> {
+pub fn to_npz(motion: &Motion, rest_pelvis: Option<Vec3>) -> Result<AmassFile, ArrayError> {
     let up = UpAxis::Z;
     let shape = motion.shape();
     let is_smplx = shape.is_some_and(|shape| shape.space == ShapeSpace::SmplX);
@@ -90,7 +113,7 @@ pub fn write_amass(motion: &Motion, rest_pelvis: Option<Vec3>) -> Result<Written
     if is_smplx {
         archive.text("surface_model_type", "smplx")?;
     }
-    Ok(WrittenAmass {
+    Ok(AmassFile {
         bytes: archive.finish()?,
         notes,
     })
