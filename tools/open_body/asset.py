@@ -1,7 +1,4 @@
-"""The asset's arrays (format 1) and the file that holds them."""
-
-import io
-import zipfile
+"""The asset's arrays, format 1."""
 
 import numpy as np
 
@@ -10,7 +7,6 @@ import skeleton
 
 FORMAT = 1
 METRES_PER_STEP = 5e-5  # of the template
-FIXED_DATE = (1980, 1, 1, 0, 0, 0)
 
 
 def arrays(template, directions, regressor, weights, triangles, mirror, betas, attribute_map):
@@ -48,14 +44,3 @@ def _mirrored_exactly(field, mirror):
     reflected[..., 0] = -reflected[..., 0]
     field[..., mirror[left], :] = reflected
     return field + field.dtype.type(0)  # no negative zeros
-
-
-def write(path, named_arrays):
-    """Writes a deflated .npz without dates, owners or anything else that changes from run to run."""
-    with zipfile.ZipFile(path, "w") as archive:
-        for name, array in named_arrays.items():
-            data = io.BytesIO()
-            np.lib.format.write_array(data, np.ascontiguousarray(array), version=(1, 0), allow_pickle=False)
-            entry = zipfile.ZipInfo(f"{name}.npy", FIXED_DATE)
-            entry.create_system = 0
-            archive.writestr(entry, data.getvalue(), zipfile.ZIP_DEFLATED, compresslevel=9)

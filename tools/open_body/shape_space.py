@@ -25,9 +25,13 @@ class ShapeSpace:
     def betas(self, coefficients):
         return (coefficients - self.mean) @ self.to_betas[:, :BETAS]
 
+    def turn(self, signs):
+        """Multiplies the betas by signs (BETAS,)."""
+        self.directions[:BETAS] *= signs[:, None]
+        self.to_betas[:, :BETAS] *= signs
 
-def fit(coefficients, body, orient):
-    """Fits the space; `orient(directions)` returns the sign (components,) each direction should have."""
+
+def fit(coefficients, body):
     mean = coefficients.mean(axis=0)
     centred = coefficients - mean
     flat = body.vertices[1:].reshape(len(body.vertices) - 1, -1)
@@ -37,6 +41,5 @@ def fit(coefficients, body, orient):
     variance, components = np.linalg.eigh(root @ inner @ root)
     variance, components = variance[::-1], components[:, ::-1]
     directions = (root @ components[:, :COMPONENTS]).T
-    directions *= orient(mean, directions)[:, None]
     kept = variance[:COMPONENTS]
     return ShapeSpace(mean, directions, kept, variance.sum(), inner @ directions.T / kept)

@@ -2,7 +2,7 @@
 
 The base mesh is already closed, but its mouth and eye sockets are bags folded inward. A bag's opening
 is where it is narrowest, and the base mesh is modelled in rings around it: so we cut along the
-shortest closed edge loop and drop the smaller side.
+shortest closed edge loop, drop the smaller side, and a little more of the rim.
 """
 
 from collections import Counter, defaultdict
@@ -10,6 +10,7 @@ from collections import Counter, defaultdict
 import numpy as np
 import scipy.sparse as sparse
 
+RINGS_OUTSIDE = 2  # cut this many rings before the narrowest, where lips and lids never touch
 EYE_REACH = 1.35  # in eyeball radii: farther loops belong to the face, not to the eye
 
 
@@ -19,6 +20,8 @@ def closed_skin(mesh):
     loops = [_mouth_loop(mesh, quads)] + [_eye_loop(mesh, quads, f"helper-{side}-eye") for side in "lr"]
     for loop in loops:
         quads = _larger_side(quads, loop)
+        for _ in range(RINGS_OUTSIDE):
+            quads, loop = _without_ring(quads, loop)
         quads = np.vstack([quads, _zipper(mesh.vertices, _against(quads, loop))])
     return quads
 
@@ -114,6 +117,18 @@ def _larger_side(quads, loop):
     count, side = sparse.csgraph.connected_components(graph, directed=False)
     assert count == 2, f"expected two sides, found {count}"
     return quads[side == np.bincount(side).argmax()]
+
+
+def _without_ring(quads, loop):
+    """Drops the ring of quads that borders on the loop; returns the rest and the next loop."""
+    beside = np.isin(quads, loop).any(axis=1)
+    inside = set(loop)
+    step = {}
+    for quad in quads[beside].tolist():
+        for a, b in zip(quad, quad[1:] + quad[:1]):
+            if (a in inside) != (b in inside):
+                step.update({a: b} if a in inside else {b: a})
+    return quads[~beside], [step[a] for a in loop]
 
 
 def _against(quads, loop):

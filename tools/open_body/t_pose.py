@@ -55,6 +55,8 @@ HAND = _direction(1, -_HAND_DOWN, -_HAND_BACK)
 THIGH = _direction(_THIGH_OUT, -1, 0)
 SHANK = _direction(-_SHANK_IN, -1, -_SHANK_BACK)
 TOES_OUT = np.radians(12.0)
+# MakeHuman's women press their small toes into one another: spread them, in degrees outward.
+TOE_SPREAD = {"toe1-1": -2.0, "toe2-1": 0.0, "toe3-1": 1.0, "toe4-1": 4.0, "toe5-1": 10.0}
 # Raising the arms lifts the shoulder girdle, each bone of it a share.
 CLAVICLE_LIFT, SCAPULA_LIFT = np.radians([10.0, 18.0])
 # The hand's twist against the elbow, spread along the arm as the two bones of the forearm do.
@@ -65,9 +67,9 @@ def pose(mesh, targets, rig, skin, neutral):
     """The T-posed LinearBody of the vertices `skin`; `neutral` are the coefficients that set the rotations."""
     fields = np.concatenate([mesh.vertices[None], targets])
     heads = np.stack([fields[:, rig.head[name]].mean(axis=1) for name in rig.names], axis=1)
-    cubes = np.stack([fields[:, mesh.helper(j.helper)].mean(axis=1) for j in skeleton.JOINTS], axis=1)
+    joints = skeleton.positions(fields, mesh)
     mix = np.concatenate([[1.0], neutral])
-    rotation = _bone_rotations(rig, mesh, np.tensordot(mix, fields, 1), np.tensordot(mix, cubes, 1))
+    rotation = _bone_rotations(rig, mesh, np.tensordot(mix, fields, 1), np.tensordot(mix, joints, 1))
 
     index = {name: i for i, name in enumerate(rig.names)}
     posed_heads = np.zeros_like(heads)
@@ -87,12 +89,12 @@ def pose(mesh, targets, rig, skin, neutral):
         vertices[:, moved] += weights[moved, i, None] * posed
 
     carriers = [index[joint.carrier] for joint in skeleton.JOINTS]
-    joints = np.stack(
-        [(cubes[:, j] - heads[:, b]) @ rotation[b].T + posed_heads[:, b] for j, b in enumerate(carriers)], axis=1
+    posed_joints = np.stack(
+        [(joints[:, j] - heads[:, b]) @ rotation[b].T + posed_heads[:, b] for j, b in enumerate(carriers)], axis=1
     )
     merged = np.zeros((len(skin), len(skeleton.NAMES)))
     np.add.at(merged.T, skeleton.joint_of_bone(rig), weights.T)
-    return _with_fixed_pelvis(LinearBody(vertices, joints, merged))
+    return _with_fixed_pelvis(LinearBody(vertices, posed_joints, merged))
 
 
 def _with_fixed_pelvis(body):
@@ -140,13 +142,17 @@ def _left_rotations(at, helper):
     hand = _frame(HAND, np.array([0.0, 0.0, 1.0])) @ _frame(along, across).T
     twist = _angle_about(FOREARM, hand @ forearm.T)
     base = {"upperarm02": upper_arm, "lowerarm01": forearm, "lowerarm02": forearm}
+    up = np.array([0.0, 1.0, 0.0])
+    foot_yaw = _turn(up, TOES_OUT - np.arctan2(foot[0], foot[2]))
+    toes = {bone: _turn(up, np.radians(outward)) @ foot_yaw for bone, outward in TOE_SPREAD.items()}
     twisted = {bone: _turn(FOREARM, share * twist) @ base[bone] for bone, share in TWIST_SHARE.items()}
     return {
         "upperleg01": thigh,
         "upperleg02": thigh,
         "lowerleg01": shank,
         "lowerleg02": shank,
-        "foot": _turn(np.array([0.0, 1.0, 0.0]), TOES_OUT - np.arctan2(foot[0], foot[2])),
+        "foot": foot_yaw,
+        **toes,
         "clavicle": _turn(np.array([0.0, 0.0, 1.0]), CLAVICLE_LIFT),
         "shoulder01": _turn(np.array([0.0, 0.0, 1.0]), SCAPULA_LIFT),
         "upperarm01": upper_arm,
