@@ -94,6 +94,16 @@ pub enum Error {
         /// Allowed.
         limit: u64,
     },
+    /// A file of no known format.
+    #[error(
+        "{path} looks like {looks_like}; motions are read from BVH, AMASS (.npz), Physique's own .motion.npz and DeepMimic's JSON."
+    )]
+    UnknownFormat {
+        /// The file.
+        path: PathBuf,
+        /// What its content looks like.
+        looks_like: String,
+    },
     /// An array of a file is broken or missing.
     #[error("{path}: {source}")]
     Array {

@@ -26,6 +26,6 @@ pub use error::Error;
 pub use frame_rate::FrameRate;
 pub use limits::Limits;
 pub use motion::{Motion, MotionShape, ShapeSpace};
-pub use read::ReadOptions;
+pub use read::{ReadOptions, SourceMotion, parse_motion, read_motion};
 pub use recording::Recording;
 pub use skeleton::{Skeleton, SkeletonJoint, SkeletonPose};

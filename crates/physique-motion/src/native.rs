@@ -145,7 +145,10 @@ impl Reader<'_> {
         if names != joint_names() {
             return Err(self.format("`joints`", &joint_names(), &names));
         }
-        let frame_rate = FrameRate::new(self.value("frame_rate", Array::number)?)?;
+        let frame_rate = match options.frame_rate {
+            Some(given) => given,
+            None => FrameRate::new(self.value("frame_rate", Array::number)?)?,
+        };
 
         let (rotations, shape) = self.numbers("rotations")?;
         let frames = match *shape.as_slice() {

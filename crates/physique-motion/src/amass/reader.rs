@@ -9,7 +9,7 @@ use super::{SMPL_REST_PELVIS, SMPLH_JOINTS, SMPLX_JOINTS, SMPLX_REST_PELVIS, tur
 use crate::npz::{Archive, Array, ArrayError};
 use crate::read::{open_archive, stem};
 use crate::read_file::read_file;
-use crate::{Error, FrameRate, Motion, MotionShape, ReadOptions, Recording, ShapeSpace};
+use crate::{Error, FrameRate, Motion, MotionShape, ReadOptions, Recording, ShapeSpace, UpAxis};
 
 /// Joints of SMPL: the body's 22 and one of each hand.
 const SMPL_JOINTS: usize = 24;
@@ -67,7 +67,7 @@ impl Reader<'_> {
         let shape = self.shape(space)?;
         let rest_pelvis = self.rest_pelvis(space);
 
-        let up = self.options.amass_up;
+        let up = self.options.up_axis.unwrap_or(UpAxis::Z);
         let pelvis = rest_pelvis.as_dvec3();
         let root_translation = translations
             .into_iter()
@@ -105,22 +105,24 @@ impl Reader<'_> {
     }
 
     fn frame_rate(&mut self) -> Result<FrameRate, Error> {
+        if let Some(given) = self.options.frame_rate {
+            return Ok(given);
+        }
         for key in ["mocap_framerate", "mocap_frame_rate"] {
             if self.archive.contains(key) {
-                let value = self
-                    .array(key)?
-                    .number()
-                    .map_err(|error| self.broken(error))?;
+                let value = self.array(key)?.number();
+                let value = value.map_err(|error| self.broken(error))?;
                 return FrameRate::new(value).map_err(|_| {
-                    self.format(&format!("`{key}`"), "a positive number", &value.to_string())
+                    let place = format!("`{key}`");
+                    self.format(&place, "a positive number", &value.to_string())
                 });
             }
         }
-        let expected =
-            "`mocap_framerate` or `mocap_frame_rate`, or a frame rate given as an option";
-        self.options
-            .frame_rate
-            .ok_or_else(|| self.format("the frame rate", expected, "neither"))
+        Err(self.format(
+            "the frame rate",
+            "`mocap_framerate` or `mocap_frame_rate`, or a frame rate given as an option",
+            "neither",
+        ))
     }
 
     fn poses(&mut self) -> Result<Poses, Error> {

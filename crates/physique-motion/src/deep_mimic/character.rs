@@ -203,12 +203,16 @@ pub(super) fn clip(
         }
     };
 
+    let frame_rate = match options.frame_rate {
+        Some(given) => given,
+        None => FrameRate::new(1.0 / timing.step)?,
+    };
     let rotations = poses
         .iter()
         .flat_map(|pose| pose.rotations.map(|q| q.as_quat()));
     SkeletonClip::new(
         skeleton()?,
-        FrameRate::new(1.0 / timing.step)?,
+        frame_rate,
         conversion,
         rotations.collect(),
         vec![0],
