@@ -1,5 +1,6 @@
 //! A value over time: a strip beneath a contact sheet.
 
+use crate::paint::fit;
 use crate::{Align, Colour, Image, TextStyle, Weight, palette};
 
 /// A value sampled at even times.
@@ -51,12 +52,13 @@ impl Plot {
 
 /// Draw a chart with marks at the times (in seconds) of the moments shown.
 pub(crate) fn draw_chart(chart: &Chart, marks: &[f32], area: ChartArea, image: &mut Image) {
+    // Beyond this the range itself would overflow.
     let finite = || {
         chart
             .values
             .iter()
             .copied()
-            .filter(|value| value.is_finite())
+            .filter(|value| value.abs() < 1e30)
     };
     let value_step = tick_step(
         finite().fold(0.0, f32::max) - finite().fold(0.0, f32::min),
@@ -88,7 +90,8 @@ pub(crate) fn draw_chart(chart: &Chart, marks: &[f32], area: ChartArea, image: &
         colour: palette::INK,
         align: Align::Left,
     };
-    image.write_text(&chart.label, area.left, area.top + 12.0, &heading);
+    let label = fit(&chart.label, heading.size, heading.weight, area.width);
+    image.write_text(&label, area.left, area.top + 12.0, &heading);
     draw_scales(&plot, value_step, image);
     draw_marks(&plot, marks, image);
     draw_curve(chart, &plot, image);

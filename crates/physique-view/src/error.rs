@@ -6,6 +6,12 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ViewError {
+    /// A body or its surface cannot be posed or measured.
+    #[error("the body cannot be drawn: {problem}")]
+    Measure {
+        /// What the floor below said.
+        problem: String,
+    },
     /// A triangle names a vertex that the mesh does not have.
     #[error(
         "triangle {triangle} names vertex {index}, but the mesh has {vertices} vertices (0 to {last})",

@@ -262,10 +262,11 @@ impl<'a> MotionStrip<'a> {
             let seconds = format!("{:.2} s", frame.seconds);
             let first = text_width(&seconds, time.size, time.weight);
             let gap = if frame.note.is_empty() { 0.0 } else { 10.0 };
-            let second = text_width(&frame.note, note.size, note.weight);
+            let words = fit(&frame.note, note.size, note.weight, width as f32 * 0.5);
+            let second = text_width(&words, note.size, note.weight);
             let x = left + middle - 0.5 * (first + gap + second);
             image.write_text(&seconds, x, baseline, &time);
-            image.write_text(&frame.note, x + first + gap, baseline, &note);
+            image.write_text(&words, x + first + gap, baseline, &note);
         }
     }
 }
