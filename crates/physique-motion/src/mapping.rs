@@ -28,6 +28,7 @@ mod reference;
 mod report;
 mod retarget;
 mod shape;
+mod sides;
 mod soles;
 mod spine;
 mod t_pose;
@@ -86,14 +87,27 @@ pub fn map_to_body(
     body: &BodyRest,
     options: &MappingOptions,
 ) -> Result<Mapped, Error> {
-    let found = find::find_joints_with(clip.skeleton(), options.table.as_ref())?;
+    let mut found = find::find_joints_with(clip.skeleton(), options.table.as_ref())?;
     if clip.frame_count() == 0 {
         return Err(Error::NoFrames);
     }
-    let drops_t_pose = !options.keep_t_pose && t_pose::leads(clip, &found.joints);
-    let first_frame = usize::from(drops_t_pose);
+    let left_is_left = sides::agreement(clip, &found.joints);
+    let mut notes = Vec::new();
+    if left_is_left < 0.0 && found.by == FoundBy::Shape {
+        found.joints = sides::exchanged(found.joints);
+    } else if left_is_left < -0.8 {
+        notes.push(
+            "left and right look exchanged: toes point backwards for a body with these sides"
+                .to_owned(),
+        );
+    }
+    let first_frame = if options.keep_t_pose {
+        0
+    } else {
+        t_pose::leading_frames(clip, &found.joints)
+    };
     let retarget = Retarget::new(clip, &found.joints, body, options.plant_feet)?;
     let (motion, outcome) = retarget.run(clip, first_frame)?;
-    let report = MappingReport::new(clip, found, &outcome, first_frame);
+    let report = MappingReport::new(clip, found, &outcome, first_frame, notes);
     Ok(Mapped { motion, report })
 }

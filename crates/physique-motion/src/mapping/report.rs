@@ -51,6 +51,7 @@ impl MappingReport {
         found: Found,
         outcome: &Outcome,
         dropped_frames: usize,
+        remarks: Vec<String>,
     ) -> Self {
         let name = |joint: usize| clip.skeleton().joints()[joint].name.clone();
         let human = &found.joints;
@@ -75,9 +76,13 @@ impl MappingReport {
             })
             .collect();
         let mut notes = clip.conversion().notes.clone();
+        notes.extend(remarks);
         notes.extend(outcome.notes.iter().cloned());
         if dropped_frames > 0 {
-            notes.push("dropped the first frame: a T-pose that is no part of the motion".into());
+            notes.push(format!(
+                "dropped {dropped_frames} frames at the start: a T-pose that is no part of the \
+                 motion, and the way out of it"
+            ));
         }
         let without: Vec<&str> = joints
             .iter()
