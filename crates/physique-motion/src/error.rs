@@ -94,6 +94,14 @@ pub enum Error {
         /// Allowed.
         limit: u64,
     },
+    /// A motion that a format cannot hold.
+    #[error("The motion cannot be written as {format}: {reason}.")]
+    Unwritable {
+        /// Name of the format.
+        format: &'static str,
+        /// Why it cannot.
+        reason: String,
+    },
     /// A file of no known format.
     #[error(
         "{path} looks like {looks_like}; motions are read from BVH, AMASS (.npz), Physique's own .motion.npz and DeepMimic's JSON."

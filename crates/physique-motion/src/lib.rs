@@ -10,6 +10,7 @@ pub mod deep_mimic;
 pub mod embedded;
 pub mod error;
 pub mod frame_rate;
+pub mod glb;
 pub mod limits;
 pub mod mapping;
 pub mod motion;

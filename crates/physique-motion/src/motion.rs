@@ -82,7 +82,7 @@ impl Motion {
                 return Err(not_finite(index / Joint::COUNT, joint, "the rotation"));
             }
             if (length - 1.0).abs() > 1e-6 {
-                *rotation = *rotation / length;
+                *rotation /= length;
             }
         }
         Ok(Self {
