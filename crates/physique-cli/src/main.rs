@@ -1,2 +1,50 @@
-//! The command.
-fn main() {}
+//! `physique`: human motion that a body could really perform, from the command line.
+
+mod arguments;
+mod body_choice;
+//mod convert;
+mod demo;
+mod exit;
+mod files;
+mod progress;
+mod score;
+mod table;
+mod view;
+mod write;
+
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+
+use arguments::{Arguments, Verb};
+use exit::Exit;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    if let Some(threads) = arguments.threads
+        && let Err(problem) = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.get())
+            .build_global()
+    {
+        eprintln!("physique: cannot start {threads} threads: {problem}");
+        return Exit::Failed.into();
+    }
+    let outcome = match &arguments.verb {
+        Verb::Score(arguments) => score::run(arguments),
+        Verb::View(arguments) => view::run(arguments),
+        Verb::Convert(_) => Ok(Exit::Failed),
+        Verb::Demo(arguments) => demo::run(arguments),
+        Verb::Completions { shell } => {
+            let mut command = Arguments::command();
+            clap_complete::generate(*shell, &mut command, "physique", &mut std::io::stdout());
+            Ok(Exit::Done)
+        }
+    };
+    match outcome {
+        Ok(exit) => exit.into(),
+        Err(problem) => {
+            eprintln!("physique: {problem:#}");
+            Exit::Failed.into()
+        }
+    }
+}

@@ -80,7 +80,7 @@ impl MotionSheet<'_> {
 
     fn subtitle(&self) -> String {
         format!(
-            "{:.1} s at {} frames a second, {} body of {:.2} m and {:.0} kg",
+            "{:.1} s at {} frames a second, {} of {:.2} m and {:.0} kg",
             self.motion.seconds(),
             self.motion.frame_rate().per_second(),
             self.body.model().name(),

@@ -23,6 +23,7 @@
 pub mod condition;
 pub mod error;
 mod frames;
+pub mod load;
 pub mod report;
 pub mod score;
 pub mod self_intersection;

@@ -1,0 +1,147 @@
+//! Commands and flags.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use physique::{Condition, Protocol};
+
+use crate::body_choice::BodyArguments;
+
+/// Human motion that a body could really perform: score it, look at it, convert it.
+#[derive(Debug, Parser)]
+#[command(
+    name = "physique",
+    version,
+    arg_required_else_help = true,
+    max_term_width = 100
+)]
+pub(crate) struct Arguments {
+    /// Threads to use [default: one a core]. Results do not depend on it.
+    #[arg(long, global = true, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+    #[command(subcommand)]
+    pub(crate) verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Verb {
+    /// Measure how much a body passes through itself in each motion.
+    Score(ScoreArguments),
+    /// Draw a motion on a body: a contact sheet over time, intersections in red.
+    View(ViewArguments),
+    /// Bring a motion to the body and write it as BVH, AMASS, GLB or Physique's own format.
+    Convert(ConvertArguments),
+    /// Score embedded clips of real motion and draw them, to see what Physique does.
+    Demo(DemoArguments),
+    /// Print a completion script for a shell.
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+}
+
+/// How motions are read.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Reading")]
+pub(crate) struct ReadArguments {
+    /// Frame rate of the files, where they do not state it or state it wrongly.
+    #[arg(long, value_name = "FPS")]
+    pub(crate) frame_rate: Option<f64>,
+    /// TOML file that names the source's joints: lines such as `left_hip = "LeftUpLeg"`.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) mapping: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ScoreArguments {
+    /// Motion files, or folders that are searched for them.
+    #[arg(required_unless_present = "schema", value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) body: BodyArguments,
+    #[command(flatten)]
+    pub(crate) read: ReadArguments,
+    /// Definition of the measures.
+    #[arg(long, value_enum, default_value_t = ProtocolName::Native)]
+    pub(crate) protocol: ProtocolName,
+    /// Distance between the lines along which volume is measured, in metres.
+    #[arg(long, value_name = "METRES", default_value_t = 0.01)]
+    pub(crate) spacing: f32,
+    /// Print JSON, whose schema `--schema` prints.
+    #[arg(long, conflicts_with = "csv")]
+    pub(crate) json: bool,
+    /// Print comma-separated values, one line a motion.
+    #[arg(long)]
+    pub(crate) csv: bool,
+    /// Show only the N worst motions in the table, worst first.
+    #[arg(long, value_name = "N", conflicts_with_all = ["json", "csv"])]
+    pub(crate) worst: Option<usize>,
+    /// Write the table, JSON or CSV to a file instead of printing it.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Exit with code 3 if a motion meets this condition, such as
+    /// `self_intersection_mean_cm3>20 or self_intersection_worst_cm3>300`.
+    #[arg(long, value_name = "EXPR")]
+    pub(crate) fail_on: Option<Condition>,
+    /// Print the JSON schema of `--json` and exit.
+    #[arg(long, exclusive = true)]
+    pub(crate) schema: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum ProtocolName {
+    /// Exact along lines; intersections apart from creases.
+    Native,
+    /// The published voxel metric, normalised into the unit ball.
+    Sia,
+}
+
+impl From<ProtocolName> for Protocol {
+    fn from(name: ProtocolName) -> Self {
+        match name {
+            ProtocolName::Native => Self::Native,
+            ProtocolName::Sia => Self::Sia,
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ViewArguments {
+    /// The motion.
+    #[arg(value_name = "FILE")]
+    pub(crate) file: PathBuf,
+    /// Where the picture goes.
+    #[arg(long, value_name = "SHEET", required = true)]
+    pub(crate) png: PathBuf,
+    /// Moments to show, evenly spread, the worst one among them.
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=64))]
+    pub(crate) moments: u16,
+    #[command(flatten)]
+    pub(crate) body: BodyArguments,
+    #[command(flatten)]
+    pub(crate) read: ReadArguments,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ConvertArguments {
+    /// The motion.
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+    /// Where it goes; the ending says the format.
+    #[arg(value_name = "OUT")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) body: BodyArguments,
+    #[command(flatten)]
+    pub(crate) read: ReadArguments,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct DemoArguments {
+    /// Folder for the scores and pictures.
+    #[arg(short, long, value_name = "FOLDER", default_value = "physique-demo")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) body: BodyArguments,
+}

@@ -1,0 +1,70 @@
+//! `physique demo`: the main job on embedded data.
+
+use std::fs;
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use physique::load::load_recording;
+use physique::motion::{Motion, embedded};
+use physique::report::MotionReport;
+use physique::{Report, ScoreOptions, Scorer};
+use physique_view::MotionSheet;
+
+use crate::arguments::DemoArguments;
+use crate::exit::Exit;
+use crate::table::table;
+use crate::write::write_file;
+
+pub(crate) fn run(arguments: &DemoArguments) -> Result<Exit> {
+    let start = Instant::now();
+    let scorer = Scorer::new(arguments.body.body()?, ScoreOptions::default())?;
+    let folder = &arguments.output;
+    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+
+    let mut motions = Vec::new();
+    for clip in embedded::clips() {
+        let loaded = load_recording(clip.load()?, scorer.body())?;
+        motions.push(MotionReport {
+            file: clip.name.to_owned(),
+            score: Some(scorer.score(&loaded.motion)?),
+            unscorable: None,
+            mapping: None,
+            notes: loaded.notes,
+        });
+        draw(&scorer, clip.name, clip.summary, &loaded.motion, arguments)?;
+    }
+    let report = Report::new(scorer.options().protocol, scorer.body(), motions);
+    let json = serde_json::to_string_pretty(&report)? + "\n";
+    write_file(&folder.join("scores.json"), json.as_bytes())?;
+
+    print!("{}", table(&report, None));
+    println!(
+        "Real motion, embedded. Scores and pictures are in {}/ ({:.1} s).",
+        folder.display(),
+        start.elapsed().as_secs_f64()
+    );
+    println!(
+        "Next: physique score your-motion.bvh, and physique view your-motion.bvh --png sheet.png"
+    );
+    Ok(Exit::Done)
+}
+
+fn draw(
+    scorer: &Scorer,
+    name: &str,
+    summary: &str,
+    motion: &Motion,
+    arguments: &DemoArguments,
+) -> Result<()> {
+    let intersections = scorer.self_intersections(motion, |_| ())?;
+    let sheet = MotionSheet {
+        title: &format!("{name}: {summary}"),
+        motion,
+        body: scorer.body(),
+        intersections: &intersections,
+        moments: 8,
+    };
+    let path = arguments.output.join(format!("{name}.png"));
+    sheet.render()?.write_png(&path)?;
+    Ok(())
+}

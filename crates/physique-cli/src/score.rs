@@ -1,0 +1,132 @@
+//! `physique score`.
+
+use std::io::Write;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use anyhow::{Context, Result};
+use physique::load::{self, LoadOptions};
+use physique::report::{MotionReport, measure_names, measures};
+use physique::{Report, ScoreOptions, Scorer};
+use rayon::prelude::*;
+
+use crate::arguments::ScoreArguments;
+use crate::exit::Exit;
+use crate::files::motion_files;
+use crate::progress;
+use crate::table::table;
+use crate::view::load_options;
+use crate::write::write_file;
+
+pub(crate) fn run(arguments: &ScoreArguments) -> Result<Exit> {
+    if arguments.schema {
+        let schema = schemars::schema_for!(Report);
+        println!("{}", serde_json::to_string_pretty(&schema)?);
+        return Ok(Exit::Done);
+    }
+    let body = arguments.body.body()?;
+    let options = ScoreOptions {
+        protocol: arguments.protocol.into(),
+        spacing_m: arguments.spacing,
+    };
+    let scorer = Scorer::new(body, options)?;
+    let files = motion_files(&arguments.files)?;
+    let load_options = load_options(&arguments.read)?;
+
+    let bar = progress::motions(files.len());
+    let frames = AtomicUsize::new(0);
+    let motions: Vec<MotionReport> = files
+        .par_iter()
+        .map(|file| {
+            let report = score_file(&scorer, file, &load_options);
+            let scored = report.score.as_ref().map_or(0, |score| score.frames);
+            let total = frames.fetch_add(scored, Ordering::Relaxed) + scored;
+            bar.set_message(total.to_string());
+            bar.inc(1);
+            report
+        })
+        .collect();
+    bar.finish_and_clear();
+
+    let report = Report::new(options.protocol, scorer.body(), motions);
+    let text = if arguments.json {
+        serde_json::to_string_pretty(&report)? + "\n"
+    } else if arguments.csv {
+        csv(&report)?
+    } else {
+        table(&report, arguments.worst)
+    };
+    match &arguments.output {
+        Some(path) => write_file(path, text.as_bytes())?,
+        None => std::io::stdout().write_all(text.as_bytes())?,
+    }
+    Ok(judge(&report, arguments))
+}
+
+/// Scores one file; what goes wrong becomes its `unscorable`.
+pub(crate) fn score_file(scorer: &Scorer, file: &Path, options: &LoadOptions) -> MotionReport {
+    let name = file.display().to_string();
+    let outcome = load::load(file, scorer.body(), options).and_then(|loaded| {
+        let score = scorer.score(&loaded.motion)?;
+        Ok((loaded, score))
+    });
+    match outcome {
+        Ok((loaded, score)) => MotionReport {
+            file: name,
+            score: Some(score),
+            unscorable: None,
+            mapping: loaded.mapping_summary(),
+            notes: loaded.notes,
+        },
+        Err(problem) => MotionReport {
+            file: name,
+            score: None,
+            unscorable: Some(problem.to_string()),
+            mapping: None,
+            notes: Vec::new(),
+        },
+    }
+}
+
+fn judge(report: &Report, arguments: &ScoreArguments) -> Exit {
+    let mut exit = Exit::Done;
+    for motion in &report.motions {
+        match (&motion.score, &arguments.fail_on) {
+            (None, _) => {
+                let reason = motion.unscorable.as_deref().unwrap_or_default();
+                eprintln!("physique: not scored: {}: {reason}", motion.file);
+                return Exit::Failed;
+            }
+            (Some(score), Some(condition)) => match condition.holds(score) {
+                Some(true) => exit = Exit::ConditionMet,
+                Some(false) => {}
+                None => {
+                    eprintln!("physique: --fail-on names a measure of another protocol");
+                    return Exit::Failed;
+                }
+            },
+            (Some(_), None) => {}
+        }
+    }
+    exit
+}
+
+fn csv(report: &Report) -> Result<String> {
+    let names = measure_names(report.protocol);
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let header = ["file"].into_iter().chain(names.iter().copied());
+    writer.write_record(header.chain(["unscorable"]))?;
+    for motion in &report.motions {
+        let measured = motion.score.as_ref().map(measures).unwrap_or_default();
+        let value = |name: &&str| {
+            let found = measured.iter().find(|(measure, _)| measure == name);
+            found.map_or(String::new(), |(_, value)| value.to_string())
+        };
+        let record = std::iter::once(motion.file.clone())
+            .chain(names.iter().map(value))
+            .chain([motion.unscorable.clone().unwrap_or_default()]);
+        writer.write_record(record)?;
+    }
+    let bytes = writer.into_inner().context("writing CSV")?;
+    Ok(String::from_utf8(bytes)?)
+}
