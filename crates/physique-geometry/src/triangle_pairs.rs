@@ -1,12 +1,16 @@
 //! Which triangles of a moving mesh intersect.
 
+mod lanes;
 mod leaf;
+mod leaf_pairs;
+mod separation;
 mod tree;
 
 use glam::Vec3;
 
 use crate::{Error, Triangles};
 use leaf::Leaf;
+use leaf_pairs::LeafPair;
 use tree::Tree;
 
 /// What to do with triangles that share a vertex: they always touch there.
@@ -98,14 +102,14 @@ impl TrianglePairs {
             (&self.leaves, self.shared_vertices, &mut self.pairs);
         self.tree
             .visit_overlapping_leaves(|first, second, box_of_second| {
-                leaf::find_pairs(
-                    &leaves[first],
-                    &leaves[second],
-                    first == second,
+                let same = first == second;
+                let leaves = LeafPair {
+                    first: &leaves[first],
+                    second: &leaves[second],
+                    same,
                     box_of_second,
-                    shared_vertices,
-                    pairs,
-                );
+                };
+                leaf_pairs::find(leaves, shared_vertices, pairs);
             });
         self.pairs.sort_unstable();
         Ok(&self.pairs)

@@ -1,4 +1,5 @@
 use glam::Vec3;
+use multiversion::multiversion;
 
 use super::{Axis, ScanOptions};
 use crate::Error;
@@ -81,15 +82,15 @@ impl Lattice {
     pub(super) fn snap(&self, positions: &[Vec3], snapped: &mut Vec<Snapped>) {
         let subcells = (1 << SUBCELL_BITS) as f32 / self.spacing;
         let depth_units = DEPTH_UNITS / self.spacing;
-        snapped.clear();
-        snapped.extend(positions.iter().map(|&p| {
-            let ([u, v], along) = self.axis.across_and_along(p);
-            let snap = |x: f32, origin: f32| ((x - origin) * subcells).round_ties_even() as i32;
-            Snapped {
-                across: [snap(u, self.origin[0]), snap(v, self.origin[1])],
-                depth: (along - self.origin_depth) * depth_units,
-            }
-        }));
+        snap(
+            positions,
+            self.axis,
+            self.origin,
+            self.origin_depth,
+            subcells,
+            depth_units,
+            snapped,
+        );
     }
 
     /// The point at `depth` on line number `line`, in metres.
@@ -131,4 +132,26 @@ fn side(least: f32, most: f32, shift: f64, spacing: f32) -> Result<(f32, usize),
         ((first + shift) * f64::from(spacing)) as f32,
         lines as usize,
     ))
+}
+
+/// Moves positions into the lattice with these origins and scales.
+#[multiversion(targets = "simd")]
+pub(crate) fn snap(
+    positions: &[Vec3],
+    axis: Axis,
+    origin: [f32; 2],
+    origin_depth: f32,
+    subcells: f32,
+    depth_units: f32,
+    snapped: &mut Vec<Snapped>,
+) {
+    snapped.clear();
+    snapped.extend(positions.iter().map(|&p| {
+        let ([u, v], along) = axis.across_and_along(p);
+        let snap = |x: f32, origin: f32| ((x - origin) * subcells).round_ties_even() as i32;
+        Snapped {
+            across: [snap(u, origin[0]), snap(v, origin[1])],
+            depth: (along - origin_depth) * depth_units,
+        }
+    }));
 }

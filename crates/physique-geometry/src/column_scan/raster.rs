@@ -1,3 +1,5 @@
+use multiversion::multiversion;
+
 use super::crossing::Crossing;
 use super::lattice::Snapped;
 use crate::{Error, Triangles};
@@ -25,7 +27,7 @@ impl Raster {
         most_crossings: u64,
     ) -> Result<(), Error> {
         let lines = lines.map(|count| count as i32);
-        let found = self.cull::<BITS>(triangles, snapped, lines);
+        let found = cull::<BITS>(triangles.corners(), snapped, lines, &mut self.candidates);
         if found > most_crossings {
             return Err(Error::TooManyCrossings {
                 found,
@@ -38,7 +40,14 @@ impl Raster {
             self.lines.resize(room, 0);
             self.crossings.resize(room, Crossing::default());
         }
-        self.cross::<BITS>(triangles, snapped, lines);
+        self.count = cross::<BITS>(
+            triangles.corners(),
+            snapped,
+            lines,
+            &self.candidates,
+            &mut self.lines,
+            &mut self.crossings,
+        );
         Ok(())
     }
 
@@ -46,66 +55,69 @@ impl Raster {
     pub(crate) fn crossings(&self) -> (&[u32], &[Crossing]) {
         (&self.lines[..self.count], &self.crossings[..self.count])
     }
+}
 
-    /// Lists the triangles whose box holds a line; returns how many lines the boxes hold together.
-    fn cull<const BITS: u32>(
-        &mut self,
-        triangles: &Triangles,
-        snapped: &[Snapped],
-        lines: [i32; 2],
-    ) -> u64 {
-        self.candidates.resize(triangles.len() + 1, 0);
-        let (mut kept, mut found) = (0, 0);
-        for (triangle, corners) in triangles.corners().iter().enumerate() {
-            let bounds = Bounds::of::<BITS>(corners.map(|v| snapped[v as usize].across), lines);
-            let held = bounds.line_count();
-            // Without a branch, which would be mispredicted for every other triangle.
-            self.candidates[kept] = triangle as u32;
-            kept += usize::from(held > 0);
-            found += held;
-        }
-        self.candidates.truncate(kept);
-        found
+/// Lists the triangles whose box holds a line; returns how many lines the boxes hold together.
+#[multiversion(targets = "simd")]
+fn cull<const BITS: u32>(
+    corners: &[[u32; 3]],
+    snapped: &[Snapped],
+    lines: [i32; 2],
+    candidates: &mut Vec<u32>,
+) -> u64 {
+    candidates.resize(corners.len() + 1, 0);
+    let (mut kept, mut found) = (0, 0);
+    for (triangle, corners) in corners.iter().enumerate() {
+        let bounds = Bounds::of::<BITS>(corners.map(|v| snapped[v as usize].across), lines);
+        let held = bounds.line_count();
+        // Without a branch, which would be mispredicted for every other triangle.
+        candidates[kept] = triangle as u32;
+        kept += usize::from(held > 0);
+        found += held;
     }
+    candidates.truncate(kept);
+    found
+}
 
-    /// Tests the lines in the boxes of the candidates.
-    fn cross<const BITS: u32>(
-        &mut self,
-        triangles: &Triangles,
-        snapped: &[Snapped],
-        lines: [i32; 2],
-    ) {
-        let mut count = 0;
-        for &triangle in &self.candidates {
-            let [a, b, c] = triangles.corners()[triangle as usize].map(|v| snapped[v as usize]);
-            let bounds = Bounds::of::<BITS>([a.across, b.across, c.across], lines);
-            let owns = [owns_ties(b, c), owns_ties(c, a), owns_ties(a, b)];
-            for v in bounds.first[1]..=bounds.last[1] {
-                for u in bounds.first[0]..=bounds.last[0] {
-                    let [to_a, to_b, to_c] = [a, b, c].map(|corner| {
-                        [
-                            corner.across[0] - (u << BITS),
-                            corner.across[1] - (v << BITS),
-                        ]
-                    });
-                    // Twice the signed areas of line and edge: the line's barycentric coordinates.
-                    let areas = [cross(to_b, to_c), cross(to_c, to_a), cross(to_a, to_b)];
-                    let area = areas[0] + areas[1] + areas[2];
-                    let [x, y, z] = [0, 1, 2].map(|k| areas[k] + i64::from(owns[k]) > 0);
-                    let meets = (x == y) & (y == z) & (area != 0);
+/// Tests the lines in the boxes of the candidates.
+#[multiversion(targets = "simd")]
+fn cross<const BITS: u32>(
+    corners: &[[u32; 3]],
+    snapped: &[Snapped],
+    lines: [i32; 2],
+    candidates: &[u32],
+    found_lines: &mut [u32],
+    crossings: &mut [Crossing],
+) -> usize {
+    let mut count = 0;
+    for &triangle in candidates {
+        let [a, b, c] = corners[triangle as usize].map(|v| snapped[v as usize]);
+        let bounds = Bounds::of::<BITS>([a.across, b.across, c.across], lines);
+        let owns = [owns_ties(b, c), owns_ties(c, a), owns_ties(a, b)];
+        for v in bounds.first[1]..=bounds.last[1] {
+            for u in bounds.first[0]..=bounds.last[0] {
+                let [to_a, to_b, to_c] = [a, b, c].map(|corner| {
+                    [
+                        corner.across[0] - (u << BITS),
+                        corner.across[1] - (v << BITS),
+                    ]
+                });
+                // Twice the signed areas of line and edge: the line's barycentric coordinates.
+                let areas = [area(to_b, to_c), area(to_c, to_a), area(to_a, to_b)];
+                let area = areas[0] + areas[1] + areas[2];
+                let [x, y, z] = [0, 1, 2].map(|k| areas[k] + i64::from(owns[k]) > 0);
+                let meets = (x == y) & (y == z) & (area != 0);
 
-                    let [_, of_b, of_c] = areas.map(|part| part as f32 / area as f32);
-                    let depth = a.depth + (of_b * (b.depth - a.depth) + of_c * (c.depth - a.depth));
-                    self.lines[count] = (v * lines[0] + u) as u32;
-                    // Counter-clockwise seen against the line: its outside is where the line goes.
-                    self.crossings[count] =
-                        Crossing::new(depth.round_ties_even() as i32, triangle, x);
-                    count += usize::from(meets);
-                }
+                let [_, of_b, of_c] = areas.map(|part| part as f32 / area as f32);
+                let depth = a.depth + (of_b * (b.depth - a.depth) + of_c * (c.depth - a.depth));
+                found_lines[count] = (v * lines[0] + u) as u32;
+                // Counter-clockwise seen against the line: its outside is where the line goes.
+                crossings[count] = Crossing::new(depth.round_ties_even() as i32, triangle, x);
+                count += usize::from(meets);
             }
         }
-        self.count = count;
     }
+    count
 }
 
 /// The lines in a triangle's box: `first..=last` in both directions, empty if last < first.
@@ -115,7 +127,7 @@ struct Bounds {
 }
 
 impl Bounds {
-    #[inline]
+    #[inline(always)]
     fn of<const BITS: u32>([a, b, c]: [[i32; 2]; 3], lines: [i32; 2]) -> Self {
         let least = |k: usize| a[k].min(b[k]).min(c[k]);
         let most = |k: usize| a[k].max(b[k]).max(c[k]);
@@ -126,7 +138,7 @@ impl Bounds {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn line_count(&self) -> u64 {
         let [width, height] = [0, 1].map(|k| (self.last[k] + 1 - self.first[k]).max(0) as u64);
         width * height
@@ -134,14 +146,14 @@ impl Bounds {
 }
 
 /// Twice the signed area between a line and an edge, exact: both ends lie within 2^30 subcells.
-#[inline]
-fn cross(p: [i32; 2], q: [i32; 2]) -> i64 {
+#[inline(always)]
+fn area(p: [i32; 2], q: [i32; 2]) -> i64 {
     i64::from(p[0]) * i64::from(q[1]) - i64::from(p[1]) * i64::from(q[0])
 }
 
 /// Whether a line exactly on the edge counts as on its left: the sign of its area after the line was
 /// shifted by an infinitesimal step along u and a yet smaller one along v.
-#[inline]
+#[inline(always)]
 fn owns_ties(from: Snapped, to: Snapped) -> bool {
     let [u, v] = [0, 1].map(|k| to.across[k] - from.across[k]);
     v < 0 || (v == 0 && u > 0)

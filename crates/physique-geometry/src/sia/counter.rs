@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use super::{POINTS_ASIDE, VOXEL_CM3, coordinate, in_ball};
 use crate::column_scan::crossing::Crossing;
-use crate::column_scan::lattice::{DEPTH_UNITS, Snapped};
+use crate::column_scan::lattice::{DEPTH_UNITS, Snapped, snap};
 use crate::column_scan::raster::Raster;
 use crate::{Axis, Error, Triangles};
 
@@ -140,7 +140,17 @@ impl SiaCounter {
                 limit: FARTHEST,
             });
         }
-        snap(positions, &mut self.snapped);
+        let cells = (POINTS_ASIDE - 1) as f32 / 2.0;
+        let subcells = cells * (1 << SUBCELL_BITS) as f32;
+        snap(
+            positions,
+            Axis::Z,
+            [-1.0; 2],
+            -1.0,
+            subcells,
+            cells * DEPTH_UNITS,
+            &mut self.snapped,
+        );
         let lines = [POINTS_ASIDE; 2];
         self.raster
             .draw::<SUBCELL_BITS>(&self.triangles, &self.snapped, lines, MOST_CROSSINGS)?;
@@ -183,19 +193,6 @@ fn points() -> impl Iterator<Item = Vec3> {
         );
         Vec3::new(coordinate(x), coordinate(y), coordinate(z))
     })
-}
-
-fn snap(positions: &[Vec3], snapped: &mut Vec<Snapped>) {
-    let cells = (POINTS_ASIDE - 1) as f32 / 2.0;
-    let subcells = cells * (1 << SUBCELL_BITS) as f32;
-    snapped.clear();
-    snapped.extend(positions.iter().map(|&p| {
-        let ([u, v], along) = Axis::Z.across_and_along(p);
-        Snapped {
-            across: [u, v].map(|x| ((x + 1.0) * subcells).round_ties_even() as i32),
-            depth: (along + 1.0) * cells * DEPTH_UNITS,
-        }
-    }));
 }
 
 /// The first layer at or behind a crossing; 35 if there is none.

@@ -1,0 +1,101 @@
+//! Intersecting pairs between two leaves.
+
+use multiversion::multiversion;
+
+use super::SharedVertices;
+use super::lanes::{Portable, Vector};
+use super::leaf::Leaf;
+use super::separation::{overlapping, unseparated};
+use super::tree::Aabb;
+use crate::exact;
+
+/// Two leaves, which may be the same one.
+#[derive(Clone, Copy)]
+pub(super) struct LeafPair<'a> {
+    pub(super) first: &'a Leaf,
+    pub(super) second: &'a Leaf,
+    pub(super) same: bool,
+    pub(super) box_of_second: &'a Aabb,
+}
+
+/// Appends all intersecting pairs of triangles between two leaves.
+pub(super) fn find(leaves: LeafPair<'_>, shared: SharedVertices, pairs: &mut Vec<(u32, u32)>) {
+    #[cfg(target_arch = "x86_64")]
+    if is_x86_feature_detected!("avx512f") {
+        // SAFETY: the feature was detected.
+        return unsafe { find_avx512(leaves, shared, pairs) };
+    }
+    find_portable(leaves, shared, pairs);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f")]
+fn find_avx512(leaves: LeafPair<'_>, shared: SharedVertices, pairs: &mut Vec<(u32, u32)>) {
+    find_with::<super::lanes::avx512::Avx512>(leaves, shared, pairs);
+}
+
+#[multiversion(targets = "simd")]
+fn find_portable(leaves: LeafPair<'_>, shared: SharedVertices, pairs: &mut Vec<(u32, u32)>) {
+    find_with::<Portable>(leaves, shared, pairs);
+}
+
+#[inline(always)]
+fn find_with<V: Vector>(leaves: LeafPair<'_>, shared: SharedVertices, pairs: &mut Vec<(u32, u32)>) {
+    let LeafPair {
+        first,
+        second,
+        same,
+        box_of_second,
+    } = leaves;
+    let skip_shared = shared == SharedVertices::Skip;
+    for lane in 0..first.count {
+        if !first.bounds_of(lane).overlaps(box_of_second) {
+            continue;
+        }
+        // Within one leaf, every pair once.
+        let later = if same {
+            u32::MAX << (lane + 1)
+        } else {
+            u32::MAX
+        };
+        let mut candidates = overlapping::<V>(first, lane, second) & later;
+        if candidates != 0 {
+            candidates = unseparated::<V>(first, lane, second, skip_shared, candidates);
+        }
+        while candidates != 0 {
+            let other = candidates.trailing_zeros() as usize;
+            candidates &= candidates - 1;
+            if intersect(first, lane, second, other) {
+                let (a, b) = (first.triangles[lane], second.triangles[other]);
+                pairs.push((a.min(b), a.max(b)));
+            }
+        }
+    }
+}
+
+/// Whether two triangles meet, beyond what they share if they share vertices. Exact.
+#[inline(never)]
+fn intersect(first: &Leaf, lane: usize, second: &Leaf, other: usize) -> bool {
+    let (a, b) = (first.vertices(lane), second.vertices(other));
+    let (mut p, mut q) = (first.triangle(lane), second.triangle(other));
+    // The corners that both have, and those that only one has.
+    let find = |of: [u32; 3], within: [u32; 3], shared: bool| {
+        (0..3)
+            .find(|&corner| within.contains(&of[corner]) == shared)
+            .unwrap_or(0)
+    };
+    match a.iter().filter(|vertex| b.contains(vertex)).count() {
+        0 => exact::triangles_meet(p, q),
+        1 => {
+            p.rotate_left(find(a, b, true));
+            q.rotate_left(find(b, a, true));
+            exact::meet_beyond_corner(p, q)
+        }
+        2 => {
+            p.rotate_left((find(a, b, false) + 1) % 3);
+            exact::meet_beyond_edge(p, [p[0], p[1], q[find(b, a, false)]])
+        }
+        // The same three vertices: one lies on the other.
+        _ => true,
+    }
+}
