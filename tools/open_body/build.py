@@ -39,9 +39,7 @@ def main():
     bodies = {name: _whole_body(half, half_body, *size) for name, size in BODIES.items()}
 
     body, triangles, _ = bodies["open_body"]
-    print("drawing people")
     drawn = people.draw(words, body, triangles)
-    print(f"{drawn.unreached} of {len(drawn.male)} did not reach their body mass index")
     space = shape_space.fit(drawn.coefficients, body)
     space.turn(_signs(space.betas(drawn.coefficients), drawn))
 

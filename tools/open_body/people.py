@@ -37,7 +37,6 @@ class People:
     stature: np.ndarray  # m
     bmi: np.ndarray  # kg/m2
     years: np.ndarray
-    unreached: int  # how many bodies ended at an end of the path
 
 
 def drawn_people():
@@ -46,7 +45,7 @@ def drawn_people():
     count = 2 * PEOPLE_OF_EACH_SEX
     male = np.arange(count) < PEOPLE_OF_EACH_SEX
     androgyny = np.clip(np.abs(rng.normal(0, 0.12, count)), 0, 0.4)
-    mean, deviation = np.where(male, *[np.array(STATURE[sex])[:, None] for sex in ("male", "female")])
+    mean, deviation = np.array([STATURE["male" if is_male else "female"] for is_male in male]).T
     traits = {
         "sex": np.where(male, androgyny, 1 - androgyny),
         "age": rng.beta(1.2, 1.6, count),
@@ -105,8 +104,8 @@ def draw(words, body, triangles):
         below, above = np.where(heavier, below, middle), np.where(heavier, middle, above)
     setting, coefficients, bmi = at((below + above) / 2)
     years = sliders.YOUNG_YEARS + (sliders.OLD_YEARS - sliders.YOUNG_YEARS) * traits["age"]
-    unreached = int((np.abs(bmi - traits["bmi"]) > 0.01).sum())
-    return People(coefficients, male, setting, traits["stature"], bmi, years, unreached)
+    assert (np.abs(bmi - traits["bmi"]) < 0.01).all(), "a body mass index lies outside the path"
+    return People(coefficients, male, setting, traits["stature"], bmi, years)
 
 
 def _stature(heights, coefficients):
