@@ -5,7 +5,8 @@ use std::path::Path;
 use anyhow::{Result, bail};
 use physique::body::{Body, Joint};
 use physique::load::{Loaded, load};
-use physique::motion::{Recording, amass, bvh, glb, native};
+use physique::motion::glb::SkinnedMesh;
+use physique::motion::{Recording, SkeletonClip, amass, bvh, glb, native};
 
 use crate::arguments::ConvertArguments;
 use crate::exit::Exit;
@@ -21,7 +22,9 @@ pub(crate) fn run(arguments: &ConvertArguments) -> Result<Exit> {
     if let Some(report) = &loaded.mapping {
         eprintln!("{report}");
     }
-    write(&loaded, &body, format, arguments)?;
+    for note in write(loaded, &body, format, arguments)? {
+        eprintln!("note: {note}");
+    }
     println!("{}", arguments.output.display());
     Ok(Exit::Done)
 }
@@ -45,7 +48,10 @@ impl Format {
             (".bvh", Self::Bvh),
             (".glb", Self::Glb),
         ];
-        match endings.into_iter().find(|(ending, _)| name.ends_with(ending)) {
+        match endings
+            .into_iter()
+            .find(|(ending, _)| name.ends_with(ending))
+        {
             Some((_, format)) => Ok(format),
             None => bail!(
                 "{}: expected an ending of .bvh, .glb, .npz (AMASS) or .motion.npz",
@@ -53,4 +59,40 @@ impl Format {
             ),
         }
     }
+}
+
+/// Writes the motion and returns what the format could not carry.
+fn write(
+    loaded: Loaded,
+    body: &Body,
+    format: Format,
+    arguments: &ConvertArguments,
+) -> Result<Vec<String>> {
+    let path = &arguments.output;
+    let motion = &loaded.motion;
+    let rest_pelvis = body.rest_joint(Joint::Pelvis);
+    match format {
+        Format::Bvh => {
+            let clip = SkeletonClip::of_body(motion, body)?;
+            bvh::write_clip(path, &clip, &bvh::BvhWriteOptions::default())?;
+        }
+        Format::Amass => return Ok(amass::write(path, motion, Some(rest_pelvis))?),
+        Format::Glb => glb::write(path, &SkinnedMesh::of(body), motion)?,
+        Format::Native => {
+            let source = arguments.input.file_name();
+            let recording = Recording {
+                name: arguments
+                    .input
+                    .file_stem()
+                    .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
+                motion: loaded.motion,
+                rest_pelvis,
+                source: source.map(|name| name.to_string_lossy().into_owned()),
+                licence: None,
+                notes: loaded.notes,
+            };
+            native::write(path, &recording)?;
+        }
+    }
+    Ok(Vec::new())
 }

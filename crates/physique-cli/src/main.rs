@@ -2,7 +2,7 @@
 
 mod arguments;
 mod body_choice;
-//mod convert;
+mod convert;
 mod demo;
 mod exit;
 mod files;
@@ -32,7 +32,7 @@ fn main() -> ExitCode {
     let outcome = match &arguments.verb {
         Verb::Score(arguments) => score::run(arguments),
         Verb::View(arguments) => view::run(arguments),
-        Verb::Convert(_) => Ok(Exit::Failed),
+        Verb::Convert(arguments) => convert::run(arguments),
         Verb::Demo(arguments) => demo::run(arguments),
         Verb::Completions { shell } => {
             let mut command = Arguments::command();

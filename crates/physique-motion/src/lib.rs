@@ -4,6 +4,7 @@
 //! at the door and writers convert back.
 
 pub mod amass;
+mod body_clip;
 pub mod bvh;
 pub mod clip;
 pub mod deep_mimic;

@@ -1,7 +1,7 @@
 //! A contact sheet of a motion on a body: what `physique view --png` draws.
 
 use glam::Vec3;
-use physique::body::{Body, Joint, Pose, PosedBody};
+use physique::body::{Body, Joint, PosedBody};
 use physique::geometry::{SharedVertices, TrianglePairs, Triangles};
 use physique::motion::Motion;
 use physique::self_intersection::{FrameIntersections, is_crease};
@@ -141,11 +141,9 @@ impl MotionSheet<'_> {
         posed: &mut PosedBody,
         pairs: &mut TrianglePairs,
     ) -> Result<Moment, ViewError> {
-        let pose = Pose {
-            root_translation: self.motion.root_translation()[frame],
-            rotations: self.motion.frame_rotations(frame),
-        };
-        self.body.pose(&pose, posed).map_err(measure)?;
+        self.body
+            .pose(&self.motion.pose(frame), posed)
+            .map_err(measure)?;
         let model = self.body.model();
         let mut highlighted = vec![false; model.triangles().len()];
         let stature = self.body.stature() as f32;
