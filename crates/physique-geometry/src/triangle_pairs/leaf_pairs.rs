@@ -99,3 +99,56 @@ fn intersect(first: &Leaf, lane: usize, second: &Leaf, other: usize) -> bool {
         _ => true,
     }
 }
+
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests {
+    use glam::Vec3;
+
+    use super::super::lanes::avx512::Avx512;
+    use super::super::leaf::LANES;
+    use super::*;
+    use crate::shapes::{Mesh, icosphere};
+
+    /// The masks of both stages for one triangle against a leaf.
+    #[inline(always)]
+    fn masks<V: Vector>(one: &Leaf, lane: usize, leaf: &Leaf, skip_shared: bool) -> [u32; 2] {
+        let all = super::super::leaf::ALL_LANES;
+        [
+            overlapping::<V>(one, lane, leaf),
+            unseparated::<V>(one, lane, leaf, skip_shared, all),
+        ]
+    }
+
+    #[target_feature(enable = "avx512f")]
+    fn masks_avx512(one: &Leaf, lane: usize, leaf: &Leaf, skip_shared: bool) -> [u32; 2] {
+        masks::<Avx512>(one, lane, leaf, skip_shared)
+    }
+
+    #[test]
+    fn wide_vectors_separate_exactly_what_the_portable_ones_do() {
+        if !is_x86_feature_detected!("avx512f") {
+            return;
+        }
+        let ball = icosphere(0.5, 3);
+        let mesh =
+            Mesh::joined([&ball, &ball.clone().translated(Vec3::new(0.3, 0.2, 0.1))]).unwrap();
+        let order: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
+        let mut leaves = Leaf::fill(&mesh.triangles, &order);
+        leaves
+            .iter_mut()
+            .for_each(|leaf| leaf.refit(&mesh.positions));
+        let mut undecided = 0;
+        for (one, leaf) in leaves
+            .iter()
+            .flat_map(|one| leaves.iter().map(move |leaf| (one, leaf)))
+        {
+            for (lane, skip_shared) in (0..LANES).flat_map(|lane| [(lane, true), (lane, false)]) {
+                // SAFETY: the feature was detected.
+                let wide = unsafe { masks_avx512(one, lane, leaf, skip_shared) };
+                assert_eq!(wide, masks::<Portable>(one, lane, leaf, skip_shared));
+                undecided += (wide[0] & wide[1]).count_ones();
+            }
+        }
+        assert!(undecided > 100);
+    }
+}
