@@ -24,4 +24,4 @@ mod write;
 
 pub use infer::{LengthUnit, PositionChannels};
 pub use read::{BvhOptions, parse, read};
-pub use write::{BvhWriteOptions, format_clip, write_clip};
+pub use write::{BvhWriteOptions, format_clip, write_clip, write_motion};

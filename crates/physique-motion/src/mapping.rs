@@ -32,6 +32,7 @@ mod sides;
 mod soles;
 mod spine;
 mod t_pose;
+mod twist;
 
 pub use alignment::AlignedBy;
 pub use body_rest::BodyRest;
@@ -55,6 +56,9 @@ pub struct MappingOptions {
     /// Otherwise leg bones keep the source's directions exactly and feet slide by what the
     /// proportions differ.
     pub plant_feet: bool,
+    /// Let forearms take part of the twist of the wrists, as forearms do; on by default. Hands
+    /// and the directions of all bones stay.
+    pub share_wrist_twist: bool,
 }
 
 impl Default for MappingOptions {
@@ -63,6 +67,7 @@ impl Default for MappingOptions {
             table: None,
             keep_t_pose: false,
             plant_feet: true,
+            share_wrist_twist: true,
         }
     }
 }
@@ -101,12 +106,13 @@ pub fn map_to_body(
                 .to_owned(),
         );
     }
+    let t_pose_frames = t_pose::leading_frames(clip, &found.joints);
     let first_frame = if options.keep_t_pose {
         0
     } else {
-        t_pose::leading_frames(clip, &found.joints)
+        t_pose_frames
     };
-    let retarget = Retarget::new(clip, &found.joints, body, options.plant_feet)?;
+    let retarget = Retarget::new(clip, &found.joints, body, t_pose_frames > 0, options)?;
     let (motion, outcome) = retarget.run(clip, first_frame)?;
     let report = MappingReport::new(clip, found, &outcome, first_frame, notes);
     Ok(Mapped { motion, report })

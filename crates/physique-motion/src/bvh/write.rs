@@ -8,7 +8,7 @@ use super::{
     channel::{Axis, Channel},
     infer::LengthUnit,
 };
-use crate::{Error, SkeletonClip, write_file::write_file};
+use crate::{Error, Motion, SkeletonClip, mapping::BodyRest, write_file::write_file};
 
 /// How to write a clip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,6 +49,20 @@ pub fn write_clip(
     options: &BvhWriteOptions,
 ) -> Result<(), Error> {
     write_file(path.as_ref(), format_clip(clip, options).as_bytes())
+}
+
+/// Writes a motion of the body: 22 joints with the rest pose of `body` as zero pose, so that
+/// reading and mapping it again gives the same motion.
+///
+/// # Errors
+/// [`Error::Io`]; [`Error::Skeleton`] when a rest joint is not finite.
+pub fn write_motion(
+    path: impl AsRef<Path>,
+    motion: &Motion,
+    body: &BodyRest,
+    options: &BvhWriteOptions,
+) -> Result<(), Error> {
+    write_clip(path, &SkeletonClip::from_motion(motion, body)?, options)
 }
 
 /// A clip as BVH text: Y up, channels Z, Y, X; six digits after the point, so that centimetres

@@ -38,7 +38,14 @@ pub(super) struct Alignment {
 
 impl Alignment {
     /// Finds the alignment from the rest pose, a T-pose in the first frame, or the clip.
-    pub(super) fn find(clip: &SkeletonClip, human: &HumanJoints, body: &BodyRest) -> Self {
+    ///
+    /// A first frame counts only where `leads_with_t_pose`: a dancer's arms may be level, too.
+    pub(super) fn find(
+        clip: &SkeletonClip,
+        human: &HumanJoints,
+        body: &BodyRest,
+        leads_with_t_pose: bool,
+    ) -> Self {
         let skeleton = clip.skeleton();
         let reference = |pose: &SkeletonPose, arms| {
             let figure = Figure {
@@ -55,9 +62,7 @@ impl Alignment {
                 by: AlignedBy::RestPose,
             };
         }
-        if clip.frame_count() > 1
-            && let Some(joint_from_body) = reference(&clip.pose(0), Arms::Level)
-        {
+        if leads_with_t_pose && let Some(joint_from_body) = reference(&clip.pose(0), Arms::Level) {
             return Self {
                 joint_from_body,
                 by: AlignedBy::FirstFrame,

@@ -193,7 +193,8 @@ impl Anatomy<'_> {
             let forward = self.seen_from(collar, |pose| {
                 pose.rotations[chest] * (chest_from_body * Vec3::Z)
             });
-            let local = [self.bone(collar, shoulder), snapped(forward, SNAP_DEGREES)];
+            let bone = snapped(self.bone(collar, shoulder), SNAP_DEGREES);
+            let local = [bone, snapped(forward, SNAP_DEGREES)];
             self.set(collar, [side.outward, Vec3::Z], local);
         }
         // An elbow bends forward.

@@ -77,30 +77,3 @@ impl BodyRest {
             .unwrap_or(Vec3::Z)
     }
 }
-
-#[cfg(test)]
-impl BodyRest {
-    /// A plain figure of 1.7 m in T-pose for tests, with feet that point outwards a little.
-    pub(crate) fn figure() -> Self {
-        #[rustfmt::skip]
-        let half = [
-            (Joint::Pelvis, [0.0, 0.95, 0.0]), (Joint::LeftHip, [0.08, 0.86, 0.0]),
-            (Joint::Spine1, [0.0, 1.06, -0.02]), (Joint::LeftKnee, [0.1, 0.48, 0.005]),
-            (Joint::Spine2, [0.0, 1.18, 0.0]), (Joint::LeftAnkle, [0.09, 0.07, -0.03]),
-            (Joint::Spine3, [0.0, 1.24, 0.01]), (Joint::LeftFoot, [0.11, 0.02, 0.09]),
-            (Joint::Neck, [0.0, 1.44, -0.03]), (Joint::LeftCollar, [0.07, 1.36, -0.02]),
-            (Joint::Head, [0.0, 1.53, 0.02]), (Joint::LeftShoulder, [0.18, 1.4, -0.03]),
-            (Joint::LeftElbow, [0.44, 1.39, -0.05]), (Joint::LeftWrist, [0.69, 1.4, -0.055]),
-        ];
-        let mut joints = [Vec3::ZERO; Joint::COUNT];
-        for (joint, position) in half {
-            let position = Vec3::from_array(position);
-            joints[joint.mirrored().index()] = position * Vec3::new(-1.0, 1.0, 1.0);
-            joints[joint.index()] = position;
-        }
-        Self {
-            joints,
-            ground: 0.0,
-        }
-    }
-}

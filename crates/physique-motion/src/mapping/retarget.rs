@@ -4,6 +4,7 @@ use glam::{Quat, Vec3};
 use physique_body::Joint;
 
 use super::{
+    MappingOptions,
     alignment::{AlignedBy, Alignment},
     body_rest::BodyRest,
     figure::ball_of_foot,
@@ -12,6 +13,7 @@ use super::{
     legs::Leg,
     soles::Soles,
     spine::SpineWeights,
+    twist::share_wrist_twist,
 };
 use crate::{Error, Motion, SkeletonClip, SkeletonPose};
 
@@ -25,6 +27,7 @@ pub(super) struct Retarget<'a> {
     /// Body size over source size.
     scale: f32,
     plant_feet: bool,
+    share_twist: bool,
     /// By side: the joint and place in its frame of the ball of the foot.
     balls: [Option<(usize, Vec3)>; 2],
 }
@@ -61,7 +64,8 @@ impl<'a> Retarget<'a> {
         clip: &SkeletonClip,
         human: &'a HumanJoints,
         body: &'a BodyRest,
-        plant_feet: bool,
+        leads_with_t_pose: bool,
+        options: &MappingOptions,
     ) -> Result<Self, Error> {
         let pose = clip.pose(0);
         let distance = |a: usize, b: usize| pose.positions[a].distance(pose.positions[b]);
@@ -78,11 +82,12 @@ impl<'a> Retarget<'a> {
         Ok(Self {
             human,
             body,
-            alignment: Alignment::find(clip, human, body),
+            alignment: Alignment::find(clip, human, body, leads_with_t_pose),
             spine: SpineWeights::new(human, &pose, body),
             soles: Soles::measure(clip, human, body),
             scale,
-            plant_feet,
+            plant_feet: options.plant_feet,
+            share_twist: options.share_wrist_twist,
             balls: human
                 .sides()
                 .map(|limbs| ball_of_foot(clip.skeleton(), limbs)),
@@ -183,6 +188,16 @@ impl<'a> Retarget<'a> {
                 Some(source) => self.alignment.world_from_body(pose, source),
                 None => world[parent.index()],
             };
+        }
+        if self.share_twist {
+            for [elbow, wrist] in [
+                [Joint::LeftElbow, Joint::LeftWrist],
+                [Joint::RightElbow, Joint::RightWrist],
+            ] {
+                let forearm = self.body.bone(elbow, wrist);
+                world[elbow.index()] =
+                    share_wrist_twist(world[elbow.index()], world[wrist.index()], forearm);
+            }
         }
         world
     }
