@@ -120,13 +120,22 @@ fn the_error_of_a_lens_falls_with_the_spacing_as_expected() {
     let lens = PI * (4.0 * radius + distance) * (2.0 * radius - distance).powi(2) / 12.0;
     let rim = (radius * radius - distance * distance / 4.0).sqrt();
     for spacing in [0.06, 0.03, 0.02, 0.01, 0.005] {
+        let options = ScanOptions {
+            spacing: spacing as f32,
+            ..ScanOptions::default()
+        };
+        let mut scanner = ColumnScanner::new(&both.triangles, options).unwrap();
         let thickness = 4.0 * rim / distance * spacing;
         let expected = 0.5 * spacing * spacing * thickness * (2.0 * PI * rim / spacing).sqrt();
         for step in 0..16_u8 {
             let offset =
                 Vec3::new(f32::from(step % 4), f32::from(step / 4), 0.0) * 0.25 * spacing as f32;
             let moved = both.clone().translated(offset);
-            let found = scan(&moved, spacing as f32, Axis::Z).doubly_covered;
+            let found = scanner
+                .scan(&moved.positions)
+                .unwrap()
+                .volumes()
+                .doubly_covered;
             // The facets take 0.04 % off the lens.
             assert_near(found, lens, expected + 0.0005 * lens);
         }

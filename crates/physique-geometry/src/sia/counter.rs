@@ -1,4 +1,5 @@
 use glam::Vec3;
+use multiversion::multiversion;
 
 use super::{POINTS_ASIDE, VOXEL_CM3, coordinate, in_ball};
 use crate::column_scan::crossing::Crossing;
@@ -96,17 +97,9 @@ impl SiaCounter {
     /// surface winds more than 32,767 times around a point.
     pub fn count(&mut self, ball_positions: &[Vec3]) -> Result<SiaVolumes, Error> {
         self.step(ball_positions)?;
-        let (mut sum_of_multiple, mut sum_of_all) = (0, 0);
-        self.layers(|_, counts| {
-            for &count in counts {
-                sum_of_all += i32::from(count);
-                sum_of_multiple += if count >= 2 { i32::from(count) } else { 0 };
-            }
-        });
-        Ok(SiaVolumes::from_sums(
-            sum_of_multiple.into(),
-            sum_of_all.into(),
-        ))
+        let (sum_of_multiple, sum_of_all) =
+            sum_counts(&self.steps, &self.in_ball, &mut self.winding);
+        Ok(SiaVolumes::from_sums(sum_of_multiple, sum_of_all))
     }
 
     /// The count at every point: x slowest, z fastest; 0 outside the ball. For tests and pictures;
@@ -118,12 +111,18 @@ impl SiaCounter {
     pub fn counts(&mut self, ball_positions: &[Vec3]) -> Result<Vec<i32>, Error> {
         self.step(ball_positions)?;
         let mut by_point = vec![0; LINES * POINTS_ASIDE];
-        self.layers(|z, counts| {
-            for (line, &count) in counts.iter().enumerate() {
-                let (x, y) = (line % POINTS_ASIDE, line / POINTS_ASIDE);
-                by_point[(x * POINTS_ASIDE + y) * POINTS_ASIDE + z] = i32::from(count);
-            }
-        });
+        self.winding.fill(0);
+        let steps = self.steps.iter().zip(&self.in_ball).enumerate();
+        for (number, (step, in_ball)) in steps {
+            let (x, y, z) = (
+                number % POINTS_ASIDE,
+                number / POINTS_ASIDE % POINTS_ASIDE,
+                number / LINES,
+            );
+            let winding = &mut self.winding[number % LINES];
+            *winding = winding.wrapping_add(*step);
+            by_point[(x * POINTS_ASIDE + y) * POINTS_ASIDE + z] = i32::from(*winding & in_ball);
+        }
         Ok(by_point)
     }
 
@@ -164,23 +163,26 @@ impl SiaCounter {
         }
         Ok(())
     }
+}
 
-    /// Calls `visit` with every layer's number and counts.
-    fn layers(&mut self, mut visit: impl FnMut(usize, &[i16])) {
-        self.winding.fill(0);
-        let mut counts = [0; LINES];
-        for z in 0..POINTS_ASIDE {
-            let layer = z * LINES..(z + 1) * LINES;
-            let steps = self.steps[layer.clone()].iter().zip(&self.in_ball[layer]);
-            for ((winding, count), (step, in_ball)) in
-                self.winding.iter_mut().zip(&mut counts).zip(steps)
-            {
-                *winding = winding.wrapping_add(*step);
-                *count = *winding & in_ball;
-            }
-            visit(z, &counts);
+/// Adds up the steps along the lines; returns the sum of the counts of 2 or more, and of all counts.
+#[multiversion(targets = "simd")]
+fn sum_counts(steps: &[i16], in_ball: &[i16], winding: &mut [i16]) -> (i64, i64) {
+    winding.fill(0);
+    let (mut sum_of_multiple, mut sum_of_all) = (0_i64, 0_i64);
+    for (steps, in_ball) in steps.chunks_exact(LINES).zip(in_ball.chunks_exact(LINES)) {
+        // Narrow sums for a layer: they hold 1,225 counts of 16 bits.
+        let (mut multiple, mut all) = (0_i32, 0_i32);
+        for ((winding, step), in_ball) in winding.iter_mut().zip(steps).zip(in_ball) {
+            *winding = winding.wrapping_add(*step);
+            let count = *winding & in_ball;
+            all += i32::from(count);
+            multiple += if count >= 2 { i32::from(count) } else { 0 };
         }
+        sum_of_multiple += i64::from(multiple);
+        sum_of_all += i64::from(all);
     }
+    (sum_of_multiple, sum_of_all)
 }
 
 /// The grid's points in the order of the layers: x fastest, z slowest.
