@@ -1,7 +1,7 @@
 //! A value over time: a strip beneath a contact sheet.
 
 use crate::paint::fit;
-use crate::{Align, Colour, Image, TextStyle, Weight, palette};
+use crate::{Align, Colour, Image, TextStyle, Weight, palette, text_width};
 
 /// A value sampled at even times.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +18,9 @@ pub struct Chart {
 
 /// Height of a chart with its labels, in pixels.
 pub(crate) const HEIGHT: u32 = 150;
+
+/// The size of the scales' numbers, in pixels.
+const TICK_SIZE: f32 = 12.0;
 
 /// Where a chart stands, in pixels.
 #[derive(Clone, Copy, Debug)]
@@ -75,8 +78,8 @@ pub(crate) fn draw_chart(chart: &Chart, marks: &[f32], area: ChartArea, image: &
     } else {
         last_mark
     };
-    let plot = Plot {
-        left: area.left + 44.0,
+    let mut plot = Plot {
+        left: area.left,
         right: area.left + area.width - 12.0,
         top: area.top + 30.0,
         bottom: area.top + HEIGHT as f32 - 26.0,
@@ -84,6 +87,8 @@ pub(crate) fn draw_chart(chart: &Chart, marks: &[f32], area: ChartArea, image: &
         low: (finite().fold(0.0, f32::min) / value_step).floor() * value_step,
         high: (finite().fold(0.0, f32::max) / value_step).ceil().max(1.0) * value_step,
     };
+    let label_width = |value| text_width(&decimal(value, value_step), TICK_SIZE, Weight::Regular);
+    plot.left += label_width(plot.low).max(label_width(plot.high)).max(24.0) + 10.0;
     let heading = TextStyle {
         size: 14.0,
         weight: Weight::SemiBold,
@@ -110,7 +115,7 @@ pub(crate) fn draw_chart(chart: &Chart, marks: &[f32], area: ChartArea, image: &
 
 fn draw_scales(plot: &Plot, value_step: f32, image: &mut Image) {
     let faint = TextStyle {
-        size: 12.0,
+        size: TICK_SIZE,
         weight: Weight::Regular,
         colour: palette::FAINT_INK,
         align: Align::Right,

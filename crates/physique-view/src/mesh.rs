@@ -93,11 +93,9 @@ impl Mesh<'_> {
 }
 
 pub(crate) fn check_positions(what: &'static str, positions: &[Vec3]) -> Result<(), ViewError> {
-    // NaN fails the comparison too.
-    match positions
-        .iter()
-        .position(|p| !(p.abs().max_element() <= MAX_COORDINATE) || p.is_nan())
-    {
+    // `max_element` may pass over NaN.
+    let lies_nowhere = |p: &Vec3| p.is_nan() || p.abs().max_element() > MAX_COORDINATE;
+    match positions.iter().position(lies_nowhere) {
         Some(index) => {
             let Vec3 { x, y, z } = positions[index];
             Err(ViewError::BadPosition {

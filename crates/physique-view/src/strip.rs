@@ -251,6 +251,7 @@ impl<'a> MotionStrip<'a> {
         };
         let baseline = (head + height) as f32 + 22.0;
         let floor = self.ground_height.unwrap_or(all.min.y);
+        let mut free_from = 0.0;
         for (frame, positions) in self.frames.iter().zip(moved) {
             let Some(bounds) = Bounds::around(positions) else {
                 continue;
@@ -264,9 +265,23 @@ impl<'a> MotionStrip<'a> {
             let gap = if frame.note.is_empty() { 0.0 } else { 10.0 };
             let words = fit(&frame.note, note.size, note.weight, width as f32 * 0.5);
             let second = text_width(&words, note.size, note.weight);
-            let x = left + middle - 0.5 * (first + gap + second);
+            // Where poses stand close, the time is worth more than the note.
+            let centred = |width: f32| left + middle - 0.5 * width;
+            let with_note = centred(first + gap + second) >= free_from;
+            let x = if with_note {
+                centred(first + gap + second)
+            } else {
+                centred(first)
+            };
+            if x < free_from {
+                continue;
+            }
             image.write_text(&seconds, x, baseline, &time);
-            image.write_text(&words, x + first + gap, baseline, &note);
+            free_from = x + first + 12.0;
+            if with_note {
+                image.write_text(&words, x + first + gap, baseline, &note);
+                free_from += gap + second;
+            }
         }
     }
 }

@@ -35,7 +35,7 @@ mod tests {
     #[test]
     fn the_key_direction_is_a_unit_vector_from_above() {
         assert!(KEY_DIRECTION.is_normalized());
-        assert!(KEY_DIRECTION.y > 0.5);
+        assert!(KEY_DIRECTION.dot(Vec3::Y) > 0.5);
     }
 
     #[test]

@@ -41,7 +41,7 @@ impl GroundShadow {
             min = min.min(cast(point)).min(below(point));
             max = max.max(cast(point)).max(below(point));
         }
-        if !(min.x <= max.x) {
+        if min.x > max.x {
             return None;
         }
         let extent = (max - min).max_element();
@@ -169,17 +169,17 @@ fn box_blur(
     let mut sum: f32 = (0..radius.min(count))
         .map(|index| value(cells, index))
         .sum();
-    for index in 0..count {
+    for (index, mean) in line.iter_mut().enumerate().take(count) {
         if index + radius < count {
             sum += value(cells, index + radius);
         }
         if index > radius {
             sum -= value(cells, index - radius - 1);
         }
-        line[index] = sum.max(0.0) / (2 * radius + 1) as f32;
+        *mean = sum.max(0.0) / (2 * radius + 1) as f32;
     }
-    for index in 0..count {
-        cells[start + index * stride] = line[index];
+    for (index, mean) in line.iter().enumerate().take(count) {
+        cells[start + index * stride] = *mean;
     }
 }
 

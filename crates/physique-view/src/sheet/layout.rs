@@ -134,7 +134,7 @@ impl Layout {
         if self.transposed {
             (frame == 0, view == 0)
         } else {
-            (view == 0, frame % self.columns == 0)
+            (view == 0, frame.is_multiple_of(self.columns))
         }
     }
 }

@@ -82,10 +82,16 @@ pub(crate) fn sphere(radius: f32, splits: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     }
     for _ in 0..splits {
         let mut finer = Vec::new();
+        // Neighbours share the middles of their edges, so that normals have no seams.
+        let mut middles = std::collections::BTreeMap::new();
         for [a, b, c] in triangles {
             let mut middle = |from: u32, to: u32| {
-                positions.push((positions[from as usize] + positions[to as usize]) * 0.5);
-                positions.len() as u32 - 1
+                *middles
+                    .entry((from.min(to), from.max(to)))
+                    .or_insert_with(|| {
+                        positions.push((positions[from as usize] + positions[to as usize]) * 0.5);
+                        positions.len() as u32 - 1
+                    })
             };
             let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
             finer.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
