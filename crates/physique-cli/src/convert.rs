@@ -73,7 +73,7 @@ fn write(
     let rest_pelvis = body.rest_joint(Joint::Pelvis);
     match format {
         Format::Bvh => {
-            let clip = SkeletonClip::of_body(motion, body)?;
+            let clip = SkeletonClip::from_motion(motion, &body.into())?;
             bvh::write_clip(path, &clip, &bvh::BvhWriteOptions::default())?;
         }
         Format::Amass => return Ok(amass::write(path, motion, Some(rest_pelvis))?),

@@ -1,7 +1,7 @@
 //! A motion of the body: 22 rotations and a root translation a frame.
 
 use glam::{Quat, Vec3};
-use physique_body::Joint;
+use physique_body::{Joint, Pose};
 
 use crate::{Error, FrameRate};
 
@@ -129,5 +129,16 @@ impl Motion {
     /// When there is no such frame.
     pub fn frame_rotations(&self, frame: usize) -> &[Quat] {
         &self.rotations[frame * Joint::COUNT..(frame + 1) * Joint::COUNT]
+    }
+
+    /// Pose of one frame, to hand to [`physique_body::Body::pose`].
+    ///
+    /// # Panics
+    /// When there is no such frame.
+    pub fn pose(&self, frame: usize) -> Pose<'_> {
+        Pose {
+            root_translation: self.root_translation[frame],
+            rotations: self.frame_rotations(frame),
+        }
     }
 }

@@ -61,7 +61,7 @@ pub fn load(path: &Path, body: &Body, options: &LoadOptions) -> Result<Loaded, E
 /// # Errors
 /// [`Error::Motion`] for a skeleton that is not human or a clip without frames.
 pub fn load_clip(clip: &SkeletonClip, body: &Body, options: &LoadOptions) -> Result<Loaded, Error> {
-    let Mapped { motion, report } = map_to_body(clip, &body_rest(body), &options.mapping)?;
+    let Mapped { motion, report } = map_to_body(clip, &BodyRest::from(body), &options.mapping)?;
     Ok(Loaded {
         motion,
         notes: report.notes.clone(),
@@ -93,12 +93,4 @@ pub fn load_recording(recording: Recording, body: &Body) -> Result<Loaded, Error
         mapping: None,
         notes: recording.notes,
     })
-}
-
-/// What mapping needs to know of a body.
-pub fn body_rest(body: &Body) -> BodyRest {
-    BodyRest {
-        joints: Joint::ALL.map(|joint| body.rest_joint(joint)),
-        ground: body.rest_ground(),
-    }
 }
