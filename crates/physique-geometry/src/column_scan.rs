@@ -16,7 +16,9 @@
 //! # The same result every time
 //!
 //! Lengths are summed as integers (1/65536 of the spacing), so that no order of triangles or threads
-//! shows in a result. The lattice is anchored to absolute multiples of the spacing, shifted by an
+//! shows in a result. The hot loops are compiled for several instruction sets and chosen when the
+//! program runs; none fuses or reorders floating-point operations, so that all give the same bits. The
+//! lattice is anchored to absolute multiples of the spacing, shifted by an
 //! irrational fraction so that lines do not run within the faces of axis-parallel boxes: moving the
 //! mesh by a multiple of the spacing changes nothing beyond the rounding of its positions, moving it
 //! by anything else changes results within their error.

@@ -34,7 +34,8 @@ pub enum SharedVertices {
 ///
 /// The surface need not be closed. The rest pose only shapes the tree: results do not depend on it.
 ///
-/// Made once a mesh (and a thread); after the first poses it allocates nothing.
+/// Made once a mesh (and a thread); after the first poses it allocates nothing. A body of 13,776
+/// triangles takes one to three milliseconds with AVX-512, two to three times that without.
 ///
 /// ```
 /// use physique_geometry::{Mesh, SharedVertices, TrianglePairs, shapes};

@@ -145,13 +145,11 @@ pub(crate) fn snap(
     depth_units: f32,
     snapped: &mut Vec<Snapped>,
 ) {
-    snapped.clear();
-    snapped.extend(positions.iter().map(|&p| {
-        let ([u, v], along) = axis.across_and_along(p);
+    snapped.resize(positions.len(), Snapped::default());
+    for (snapped, &position) in snapped.iter_mut().zip(positions) {
+        let ([u, v], along) = axis.across_and_along(position);
         let snap = |x: f32, origin: f32| ((x - origin) * subcells).round_ties_even() as i32;
-        Snapped {
-            across: [snap(u, origin[0]), snap(v, origin[1])],
-            depth: (along - origin_depth) * depth_units,
-        }
-    }));
+        snapped.across = [snap(u, origin[0]), snap(v, origin[1])];
+        snapped.depth = (along - origin_depth) * depth_units;
+    }
 }

@@ -65,7 +65,7 @@ fn cull<const BITS: u32>(
     lines: [i32; 2],
     candidates: &mut Vec<u32>,
 ) -> u64 {
-    candidates.resize(corners.len() + 1, 0);
+    candidates.resize(corners.len(), 0);
     let (mut kept, mut found) = (0, 0);
     for (triangle, corners) in corners.iter().enumerate() {
         let bounds = Bounds::of::<BITS>(corners.map(|v| snapped[v as usize].across), lines);
@@ -73,7 +73,7 @@ fn cull<const BITS: u32>(
         // Without a branch, which would be mispredicted for every other triangle.
         candidates[kept] = triangle as u32;
         kept += usize::from(held > 0);
-        found += held;
+        found += u64::from(held);
     }
     candidates.truncate(kept);
     found
@@ -139,8 +139,8 @@ impl Bounds {
     }
 
     #[inline(always)]
-    fn line_count(&self) -> u64 {
-        let [width, height] = [0, 1].map(|k| (self.last[k] + 1 - self.first[k]).max(0) as u64);
+    fn line_count(&self) -> u32 {
+        let [width, height] = [0, 1].map(|k| (self.last[k] + 1 - self.first[k]).max(0) as u32);
         width * height
     }
 }

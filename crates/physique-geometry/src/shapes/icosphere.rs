@@ -7,10 +7,7 @@ use super::Mesh;
 /// A sphere of `20 * 4^subdivisions` triangles around the origin: an icosahedron whose triangles are
 /// split in four, again and again, their new vertices moved onto the sphere. All vertices lie on the
 /// sphere, so that the mesh holds less than the ball (at four subdivisions 0.3 % less).
-///
-/// # Panics
-///
-/// Never; more than 9 subdivisions (5 million triangles) are cut to 9.
+/// More than 9 subdivisions (5 million triangles) are cut to 9.
 #[must_use]
 pub fn icosphere(radius: f32, subdivisions: u32) -> Mesh {
     let (mut points, mut corners) = icosahedron();

@@ -78,7 +78,7 @@ fn find_with<V: Vector>(leaves: LeafPair<'_>, shared: SharedVertices, pairs: &mu
 fn intersect(first: &Leaf, lane: usize, second: &Leaf, other: usize) -> bool {
     let (a, b) = (first.vertices(lane), second.vertices(other));
     let (mut p, mut q) = (first.triangle(lane), second.triangle(other));
-    // The corners that both have, and those that only one has.
+    // The first corner that both have, or that only one has: there is one wherever it is asked for.
     let find = |of: [u32; 3], within: [u32; 3], shared: bool| {
         (0..3)
             .find(|&corner| within.contains(&of[corner]) == shared)
