@@ -26,8 +26,8 @@ const BAND_ROWS: usize = 8;
 impl Scene<'_> {
     /// Draw the scene: 8 samples a pixel, shaded in linear light.
     ///
-    /// The picture is the same for any number of threads. Takes about 10 ms for a body of
-    /// 13,800 triangles at 512 x 512 pixels on one core.
+    /// The picture is the same for any number of threads. A body of 13,800 triangles at
+    /// 512 x 512 pixels takes some 20 to 45 ms on one core (`cargo bench -p physique-view`).
     ///
     /// # Errors
     /// [`ViewError::BadSize`] or [`ViewError::BadCamera`].
