@@ -26,7 +26,7 @@ def main():
         wheel = arguments.wheel or download(Path(temporary))
         output = Path(temporary) / "clips" if arguments.check else ASSETS
         output.mkdir(exist_ok=True)
-        command = ["cargo", "run", "--release", "--quiet", "--package", "physique-motion"]
+        command = ["cargo", "run", "--quiet", "--package", "physique-motion"]
         subprocess.run([*command, "--example", "embed_clips", "--", wheel, output], cwd=ROOT, check=True)
         if (output / "sha256sums").read_text() != (ASSETS / "sha256sums").read_text():
             sys.exit("The clips built from the public source differ from those in assets/motion.")

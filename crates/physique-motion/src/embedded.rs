@@ -1,7 +1,7 @@
 //! Real motions that come with the library, ready for demonstrations, examples and tests.
 //!
 //! Six clips that DeepMimic's authors prepared from motion capture, taken from PyPI `pybullet`
-//! 3.2.7 (zlib licence) and mapped to the open body: some 270 kB, see `assets/motion/CARD.md`.
+//! 3.2.7 (zlib licence) and mapped to the open body: some 250 kB, see `assets/motion/CARD.md`.
 //!
 //! ```
 //! use physique_motion::embedded;
@@ -55,7 +55,7 @@ static CLIPS: [EmbeddedClip; 6] = [
         "get_up",
         "from lying on the back over a backward roll to standing"
     ),
-    clip!("cartwheel", "a cartwheel to the side"),
+    clip!("jump", "a standing jump forward"),
     clip!("spin_kick", "a kick in a turning leap"),
     clip!("walk", "one cycle of walking"),
     clip!("run", "one cycle of running"),

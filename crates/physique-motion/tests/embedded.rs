@@ -11,7 +11,7 @@ fn every_clip_loads_with_its_name_its_source_and_its_licence() {
     let expected = [
         ("dance", 153, 60),
         ("get_up", 227, 60),
-        ("cartwheel", 164, 60),
+        ("jump", 107, 60),
         ("spin_kick", 78, 60),
         ("walk", 39, 30),
         ("run", 25, 30),

@@ -1,7 +1,7 @@
 //! Makes the embedded clips from PyPI `pybullet`'s copy of DeepMimic's motions.
 //!
 //! ```text
-//! cargo run --release -p physique-motion --example embed_clips -- WHEEL FOLDER
+//! cargo run -p physique-motion --example embed_clips -- WHEEL FOLDER
 //! ```
 //!
 //! reads the wheel `pybullet-3.2.7-*.whl` (any platform's: the motions are the same), checks every
@@ -10,8 +10,6 @@
 
 #![allow(missing_docs)]
 
-mod humanoid;
-
 use std::error::Error;
 use std::fmt::Write as _;
 use std::fs::{self, File};
@@ -19,6 +17,7 @@ use std::io::Read as _;
 use std::path::Path;
 
 use physique_body::{Body, open_body};
+use physique_motion::mapping::{BodyRest, MappingOptions, map_to_body};
 use physique_motion::{ReadOptions, Recording, deep_mimic, native};
 use sha2::{Digest, Sha256};
 
@@ -35,9 +34,9 @@ const CLIPS: [(&str, &str, &str); 6] = [
         "5936c32d51dad9b0cd5e61df681079d160436cdce845c312f200d7a347c4040d",
     ),
     (
-        "cartwheel",
-        "cartwheel",
-        "17453459a40ec4ea08346072748ae3c7c384b49e619753e9779637fa8a9f7c49",
+        "jump",
+        "jump",
+        "a433557e94b193d8a95530572a0e32f387eb6d9996987b4216efb65444c3c641",
     ),
     (
         "spin_kick",
@@ -73,8 +72,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             return Err(format!("{entry}: expected SHA-256 {expected}, found {found}.").into());
         }
         let clip = deep_mimic::parse(&text, &entry, &ReadOptions::default())?;
+        let mapped = map_to_body(&clip, &BodyRest::from(&body), &MappingOptions::default())?;
         let recording = Recording {
-            motion: humanoid::motion(&clip, &body)?,
+            motion: mapped.motion,
             name: name.into(),
             rest_pelvis: body.rest_joints()[0],
             source: Some(format!(
