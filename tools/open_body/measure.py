@@ -8,7 +8,7 @@ import skeleton
 
 
 def report(name, arrays, body, triangles, space, drawn):
-    """Prints what `assets/body/CARD.md` states about one body."""
+    """Prints what `crates/physique-body/assets/CARD.md` states about one body."""
     template = arrays["template_quantised"] * 5e-5
     directions = arrays["shape_directions"].astype(np.float64)
     print(f"== {name}")

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use sha2::{Digest, Sha256};
 
 use crate::shell::root;
@@ -15,15 +15,17 @@ pub(crate) fn hash(path: &Path) -> Result<String> {
     Ok(digest.iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
-/// Checks that each asset's hash stands in a card (`*.md`) of its folder.
+/// Checks that each asset's hash stands in a card of its folder: `*.md`, or the `sha256sums` that
+/// the card refers to. Licence texts (`*.txt`) are no assets.
 pub(crate) fn check() -> Result<()> {
     println!("== asset cards");
     let mut missing = Vec::new();
     let mut count = 0;
     for folder in asset_folders()? {
-        let files = files(&folder)?;
-        let is_card = |path: &PathBuf| path.extension().is_some_and(|e| e == "md");
-        let (cards, assets): (Vec<_>, Vec<_>) = files.into_iter().partition(is_card);
+        let has_ending = |path: &Path, ending| path.extension().is_some_and(|e| e == ending);
+        let is_card = |path: &PathBuf| has_ending(path, "md") || path.ends_with("sha256sums");
+        let files = files(&folder)?.into_iter().filter(|path| !has_ending(path, "txt"));
+        let (cards, assets): (Vec<_>, Vec<_>) = files.partition(is_card);
         let cards = cards
             .iter()
             .map(fs::read_to_string)
@@ -36,6 +38,7 @@ pub(crate) fn check() -> Result<()> {
             }
         }
     }
+    ensure!(count > 0, "no assets found: this check has lost its folders");
     if !missing.is_empty() {
         bail!("no card states the hash of:\n  {}", missing.join("\n  "));
     }

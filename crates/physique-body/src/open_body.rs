@@ -17,7 +17,7 @@ pub fn open_body() -> Result<Arc<BodyModel>, Error> {
     shared(
         &MODEL,
         "open body",
-        include_bytes!("../../../assets/body/open_body.npz"),
+        include_bytes!("../assets/open_body.npz"),
     )
 }
 
@@ -30,7 +30,7 @@ pub fn open_body_low() -> Result<Arc<BodyModel>, Error> {
     shared(
         &MODEL,
         "open body (low)",
-        include_bytes!("../../../assets/body/open_body_low.npz"),
+        include_bytes!("../assets/open_body_low.npz"),
     )
 }
 

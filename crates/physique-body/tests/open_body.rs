@@ -188,7 +188,7 @@ fn betas_beyond_the_model_are_refused() {
 
 #[test]
 fn truncated_and_damaged_files_are_errors() {
-    let bytes = include_bytes!("../../../assets/body/open_body_low.npz");
+    let bytes = include_bytes!("../assets/open_body_low.npz");
     for length in (0..bytes.len()).step_by(997) {
         assert!(
             compact::read("cut", &bytes[..length]).is_err(),

@@ -1,4 +1,4 @@
-//! Words, in the embedded typeface Inter (see `assets/fonts/card.md`).
+//! Words, in the embedded typeface Inter (see `assets/CARD.md`).
 
 use std::sync::LazyLock;
 
@@ -42,10 +42,10 @@ pub struct TextStyle {
 }
 
 static REGULAR: LazyLock<FontRef<'static>> =
-    LazyLock::new(|| embedded(include_bytes!("../../../../assets/fonts/Inter-Regular.ttf")));
+    LazyLock::new(|| embedded(include_bytes!("../../assets/Inter-Regular.ttf")));
 static SEMI_BOLD: LazyLock<FontRef<'static>> = LazyLock::new(|| {
     embedded(include_bytes!(
-        "../../../../assets/fonts/Inter-SemiBold.ttf"
+        "../../assets/Inter-SemiBold.ttf"
     ))
 });
 

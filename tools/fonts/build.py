@@ -1,24 +1,26 @@
 #!/usr/bin/env python3
-"""Build the two embedded fonts from the npm package `inter-ui` 4.1.1.
+"""Builds the two embedded fonts from the npm package `inter-ui` 4.1.1.
 
-    npm pack inter-ui@4.1.1 && tar xzf inter-ui-4.1.1.tgz
-    pip install fonttools==4.68.0 brotli
-    python build.py package            # writes Inter-Regular.ttf and Inter-SemiBold.ttf beside this file
-    python build.py package --check    # compares hashes with card.md instead
+    python tools/fonts/build.py                    # fetches the package with npm
+    python tools/fonts/build.py --source package   # takes one that is unpacked
 
 The fonts are cut down to the characters that labels need, and figures are made tabular,
 so that numbers stand under each other.
 """
 
+import argparse
 import hashlib
 import io
 import pathlib
-import sys
+import subprocess
+import tarfile
+import tempfile
 
 from fontTools import subset
 from fontTools.ttLib import TTFont
 
-HERE = pathlib.Path(__file__).parent
+ASSETS = pathlib.Path(__file__).resolve().parents[2] / "crates" / "physique-view" / "assets"
+PACKAGE = "inter-ui@4.1.1"
 CHARACTERS = (
     set(range(0x20, 0x7F))
     | set(range(0xA0, 0x180))  # Latin-1 and Latin Extended-A: names of people and files
@@ -52,21 +54,26 @@ def build(source: pathlib.Path) -> bytes:
     return buffer.getvalue()
 
 
-def main() -> int:
-    package = pathlib.Path(sys.argv[1])
-    check = "--check" in sys.argv[2:]
-    card = (HERE / "card.md").read_text() if check else ""
-    for name in ("Inter-Regular", "Inter-SemiBold"):
-        data = build(package / "web" / f"{name}.woff2")
-        digest = hashlib.sha256(data).hexdigest()
-        print(f"{digest}  {name}.ttf  {len(data)} bytes")
-        if not check:
-            (HERE / f"{name}.ttf").write_bytes(data)
-        elif digest not in card:
-            print(f"{name}.ttf differs from the hash in card.md", file=sys.stderr)
-            return 1
-    return 0
+def fetch(folder: pathlib.Path) -> pathlib.Path:
+    """The package, unpacked below `folder`."""
+    subprocess.run(["npm", "pack", "--silent", PACKAGE], cwd=folder, check=True)
+    with tarfile.open(next(folder.glob("inter-ui-*.tgz"))) as archive:
+        archive.extractall(folder, filter="data")
+    return folder / "package"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--source", type=pathlib.Path, help="the unpacked package")
+    parser.add_argument("--output", type=pathlib.Path, default=ASSETS)
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as temporary:
+        package = arguments.source or fetch(pathlib.Path(temporary))
+        for name in ("Inter-Regular", "Inter-SemiBold"):
+            data = build(package / "web" / f"{name}.woff2")
+            (arguments.output / f"{name}.ttf").write_bytes(data)
+            print(f"{hashlib.sha256(data).hexdigest()}  {name}.ttf  {len(data)} bytes")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()
