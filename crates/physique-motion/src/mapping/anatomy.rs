@@ -219,6 +219,26 @@ impl Anatomy<'_> {
         let body_fore = self.body.bone(side.elbow, side.wrist);
         self.set(elbow, [body_fore, body_hinge], [fore, fore_hinge]);
         self.carry(elbow, wrist);
+        self.palm(side, wrist);
+    }
+
+    /// A palm faces down in a T-pose: the knuckle of the index lies before that of the little
+    /// finger. Without fingers the hand stays as the zero pose has it.
+    fn palm(&mut self, side: Side, wrist: usize) {
+        let knuckle = |names: &[&str]| {
+            (wrist + 1..self.skeleton.joint_count()).find(|&joint| {
+                let name = self.skeleton.joints()[joint].name.to_lowercase();
+                names.iter().any(|finger| name.contains(finger))
+                    && self.skeleton.is_at_or_below(joint, wrist)
+            })
+        };
+        let (Some(index), Some(little)) = (knuckle(&["index"]), knuckle(&["pinky", "little"]))
+        else {
+            return;
+        };
+        let across = self.seen_from(wrist, |pose| pose.positions[index] - pose.positions[little]);
+        let along = self.joint_from_body[wrist] * side.outward;
+        self.set(wrist, [side.outward, Vec3::Z], [along, across]);
     }
 
     /// Mean of one of the chest's body axes seen from a joint: for an arm that never bends.
