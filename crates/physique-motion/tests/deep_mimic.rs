@@ -100,13 +100,9 @@ fn every_column_moves_the_joint_it_should() {
         // A right angle about DeepMimic's vertical: the same about ours.
         (row[column], row[column + 2]) = (2.0, 2.0);
         let clip = parse(&text(&[row, row])).unwrap();
-        for joint in 0..JOINTS.len() {
+        for (joint, &found) in JOINTS.iter().enumerate() {
             let (axis, angle) = clip.rotation(0, joint).to_axis_angle();
-            let expected = if JOINTS[joint] == name {
-                FRAC_PI_2
-            } else {
-                0.0
-            };
+            let expected = if found == name { FRAC_PI_2 } else { 0.0 };
             assert!(
                 (angle * axis.y - expected).abs() < 1e-6,
                 "{name}: {}",

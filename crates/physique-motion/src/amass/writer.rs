@@ -93,7 +93,7 @@ pub fn to_npz(motion: &Motion, rest_pelvis: Option<Vec3>) -> Result<AmassFile, A
         gender = shape.gender.as_deref().unwrap_or(gender);
         if shape.space == ShapeSpace::Open {
             notes.push("Betas of the open body were left out: they mean nothing to SMPL.".into());
-        } else {
+        } else if !shape.betas.is_empty() {
             betas = shape.betas.iter().map(|&beta| f64::from(beta)).collect();
         }
     }
