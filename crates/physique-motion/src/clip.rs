@@ -116,7 +116,7 @@ impl SkeletonClip {
             if !(length.is_finite() && length > 1e-6) {
                 return Err(not_finite(index / joints, index % joints, "the rotation"));
             }
-            *rotation = *rotation / length;
+            *rotation /= length;
         }
         for (index, translation) in translations.iter().enumerate() {
             if !translation.is_finite() {

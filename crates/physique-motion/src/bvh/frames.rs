@@ -71,10 +71,10 @@ fn numbers(
     let promised = frame_count.saturating_mul(columns);
     let mut values = Vec::with_capacity(promised.min(text.remaining() / 2 + 1));
     let mut frame = 0;
-    while columns > 0 {
-        let Some((line, content)) = text.data_line() else {
-            break;
-        };
+    if columns == 0 {
+        return Ok(values);
+    }
+    while let Some((line, content)) = text.data_line() {
         let place = |column| place(joints, line, frame, column);
         if frame == frame_count {
             let expected = format!("the end of the file after {frame_count} frames");
@@ -129,7 +129,7 @@ fn numbers(
         }
         frame += 1;
     }
-    if columns > 0 && frame < frame_count {
+    if frame < frame_count {
         let expected = format!("{frame_count} frames, as the header says");
         let found = frame.to_string();
         let place = format!("line {}", text.line());
