@@ -63,7 +63,8 @@ fn bodies_stand_on_the_floor_and_walking_goes_forward() {
                 .iter()
                 .map(|vertex| vertex.y)
                 .fold(f32::MAX, f32::min);
-            assert!(lowest > -0.05, "{}, frame {frame}: {lowest} m", clip.name);
+            // The card states the deepest: 5.8 cm, hands and back in `get_up`.
+            assert!(lowest > -0.065, "{}, frame {frame}: {lowest} m", clip.name);
             on_floor += usize::from(lowest < 0.05);
         }
         assert!(on_floor * 5 > motion.frame_count(), "{} flies", clip.name);
