@@ -129,4 +129,66 @@ pub enum Error {
     /// A clip without frames.
     #[error("The clip holds no frames.")]
     NoFrames,
+    /// Joint positions that are not whole frames.
+    #[error("Expected positions of {joints} joints for every frame, found {found} positions.")]
+    PositionCount {
+        /// Joints a frame.
+        joints: usize,
+        /// Positions given.
+        found: usize,
+    },
+    /// Features that are not whole rows.
+    #[error("Expected rows of {columns} features, found {found} numbers.")]
+    FeatureCount {
+        /// Columns of a row.
+        columns: usize,
+        /// Numbers given.
+        found: usize,
+    },
+    /// A feature that is NaN or infinite.
+    #[error("Frame {frame}, column {column}: expected a finite number.")]
+    FeatureNotFinite {
+        /// Frame, from 0.
+        frame: usize,
+        /// Column, from 0.
+        column: usize,
+    },
+    /// A body that faces nowhere.
+    #[error("Frame {frame}: hips and shoulders do not tell where the body faces.")]
+    NoHeading {
+        /// Frame, from 0.
+        frame: usize,
+    },
+    /// A bone without a direction.
+    #[error("Frame {frame}: expected a bone from {parent} to {joint}, found both in one place.")]
+    NoBone {
+        /// Frame, from 0.
+        frame: usize,
+        /// Upper joint's name.
+        parent: &'static str,
+        /// Lower joint's name.
+        joint: &'static str,
+    },
+    /// Six numbers that are no rotation.
+    #[error(
+        "Frame {frame}, joint {joint}: expected six numbers of a rotation, found parallel or zero vectors."
+    )]
+    NoRotation {
+        /// Frame, from 0.
+        frame: usize,
+        /// Joint's name.
+        joint: &'static str,
+    },
+    /// Statistics that cannot normalise.
+    #[error(
+        "Column {column} of the {array}: expected a finite number, above 0 for a deviation, found {found}."
+    )]
+    Statistics {
+        /// Mean or standard deviation.
+        array: &'static str,
+        /// Column, from 0.
+        column: usize,
+        /// The number.
+        found: f32,
+    },
 }

@@ -10,6 +10,7 @@ pub mod clip;
 pub mod deep_mimic;
 pub mod embedded;
 pub mod error;
+pub mod features;
 pub mod frame_rate;
 pub mod glb;
 pub mod limits;

@@ -21,7 +21,7 @@ pub use archive::Archive;
 pub use array::Array;
 pub use element::{ByteOrder, Element};
 pub use error::ArrayError;
-pub use writer::ArchiveWriter;
+pub use writer::{ArchiveWriter, npy_f32};
 
 /// Upper bounds that the reader checks before it allocates or inflates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -121,6 +121,22 @@ impl ArchiveWriter {
     }
 }
 
+/// The bytes of a single `.npy` of 32-bit numbers in C order.
+///
+/// # Errors
+/// [`ArrayError::Write`] when the shape does not hold the values.
+pub fn npy_f32(shape: &[usize], values: &[f32]) -> Result<Vec<u8>, ArrayError> {
+    if shape.iter().product::<usize>() != values.len() {
+        return Err(ArrayError::Write {
+            key: "the array".into(),
+            reason: format!("shape {shape:?} does not hold {} values", values.len()),
+        });
+    }
+    let mut bytes = header("<f4", shape);
+    bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+    Ok(bytes)
+}
+
 /// A version 1 header, padded so that the data starts at a multiple of 64 bytes.
 fn header(descr: &str, shape: &[usize]) -> Vec<u8> {
     let lengths: String = shape.iter().map(|length| format!("{length},")).collect();
