@@ -1,0 +1,41 @@
+//! Mass, ground, feet, balance and smoothness of a human motion.
+//!
+//! Floor 3 of Physique: it knows bodies and motions, not files and not learning. Metres, seconds,
+//! kilograms, radians; right-handed, **Y up**; places on the ground are `(x, z)`.
+
+mod ground;
+mod interior;
+mod mass_moments;
+mod mass_points;
+mod transforms;
+
+pub mod balance;
+pub mod error;
+pub mod frame;
+pub mod hull;
+pub mod loss;
+pub mod measures;
+pub mod options;
+pub mod physics;
+pub mod rig;
+pub mod segment;
+pub mod soles;
+pub mod support;
+pub mod time_filter;
+
+pub use balance::{Centroid, GRAVITY, PressureModel};
+pub use error::Error;
+pub use frame::{FramePhysics, JointMotion};
+pub use hull::SupportPolygon;
+pub use mass_moments::MassMoments;
+pub use mass_points::MassPoints;
+pub use measures::{
+    BalanceMeasures, FootMeasures, GroundMeasures, MeasuredBalance, PhysicsMeasures,
+    SmoothnessMeasures,
+};
+pub use options::{GroundChoice, PhysicsOptions};
+pub use physics::Physics;
+pub use rig::Rig;
+pub use segment::Segment;
+pub use support::Support;
+pub use time_filter::TimeFilter;

@@ -1,0 +1,208 @@
+//! Derivatives over time, of a bandwidth stated in Hz.
+//!
+//! A second difference over neighbouring frames means something else at every frame rate: 1 mm of
+//! noise is 1 m/s2 at 20 fps and 35 m/s2 at 120. So the default is a filter in seconds: a quartic
+//! fitted to the frames around, weighted by a Gaussian in time (a Savitzky-Golay filter with soft
+//! ends). With `s = (omega sigma)^2 / 2` it passes the first and second derivatives by
+//! `(1 + s) exp(-s)` to 2 % (the window ends at 4.5 sigma), at any frame rate that resolves sigma.
+
+use physique_motion::FrameRate;
+
+use crate::Error;
+
+/// `sigma * cut-off`: where `(1 + s) exp(-s)` falls to 1/sqrt(2).
+const SIGMA_HZ: f64 = 0.233_70;
+/// The window ends at this many sigmas.
+const WINDOW_SIGMAS: f64 = 4.5;
+/// A narrower Gaussian than this many frames does not see its neighbours.
+const LEAST_SIGMA_FRAMES: f64 = 0.7;
+/// Coefficients of the fitted quartic.
+const TERMS: usize = 5;
+const FACTORIAL: [f64; 4] = [1.0, 1.0, 2.0, 6.0];
+
+/// Taps on the frames `-reach..=reach` around a frame, for the value and three derivatives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimeFilter {
+    reach: usize,
+    cutoff_hz: f64,
+    taps: [Vec<f64>; 4],
+}
+
+impl TimeFilter {
+    /// The filter with this cut-off (-3 dB of first and second derivatives). At frame rates below
+    /// about three times the cut-off, the cut-off falls with the frame rate;
+    /// [`TimeFilter::cutoff_hz`] tells.
+    ///
+    /// # Errors
+    /// [`Error::Option`] for a cut-off that is not between 0.1 and 50 Hz.
+    pub fn new(frame_rate: FrameRate, cutoff_hz: f64) -> Result<Self, Error> {
+        if !(0.1..=50.0).contains(&cutoff_hz) {
+            return Err(Error::Option {
+                option: "cut-off of the time derivatives",
+                expected: "0.1 to 50 Hz",
+                found: cutoff_hz,
+            });
+        }
+        let frame = frame_rate.frame_seconds();
+        let sigma = (SIGMA_HZ / cutoff_hz).max(LEAST_SIGMA_FRAMES * frame);
+        let sigma_frames = sigma / frame;
+        let reach = ((WINDOW_SIGMAS * sigma_frames).round() as usize).max(2);
+        // Time in sigmas: well conditioned for any rate.
+        let times: Vec<_> = frames(reach).map(|k| k / sigma_frames).collect();
+        let weights = times.iter().map(|t| (-t * t / 2.0).exp()).collect();
+        Ok(Self {
+            reach,
+            cutoff_hz: SIGMA_HZ / sigma,
+            taps: fit(&times, weights, TERMS, sigma),
+        })
+    }
+
+    /// The second difference `[1, -2, 1] / h^2` of the released HUMOS, with the central first
+    /// difference. Its bandwidth is that of the frame rate.
+    pub fn second_difference(frame_rate: FrameRate) -> Self {
+        Self::quadratic(frame_rate, 1)
+    }
+
+    /// The quadratic Savitzky-Golay filter over five frames.
+    pub fn savitzky_golay_5(frame_rate: FrameRate) -> Self {
+        Self::quadratic(frame_rate, 2)
+    }
+
+    fn quadratic(frame_rate: FrameRate, reach: usize) -> Self {
+        let times: Vec<_> = frames(reach).collect();
+        let weights = vec![1.0; times.len()];
+        Self {
+            reach,
+            cutoff_hz: frame_rate.per_second() / 2.0,
+            taps: fit(&times, weights, 3, frame_rate.frame_seconds()),
+        }
+    }
+
+    /// Frames that the filter looks at on either side.
+    pub const fn reach(&self) -> usize {
+        self.reach
+    }
+
+    /// The cut-off in Hz; for the short filters, half the frame rate.
+    pub const fn cutoff_hz(&self) -> f64 {
+        self.cutoff_hz
+    }
+
+    /// `[2 reach + 1]` taps of the derivative of this order (0 to 3; 0 smooths).
+    ///
+    /// # Panics
+    /// For a higher order.
+    pub fn taps(&self, order: usize) -> &[f64] {
+        &self.taps[order]
+    }
+
+    /// Whether `frame` of `count` has all its neighbours.
+    pub const fn covers(&self, frame: usize, count: usize) -> bool {
+        frame >= self.reach && frame + self.reach < count
+    }
+}
+
+fn frames(reach: usize) -> impl Iterator<Item = f64> {
+    (0..=2 * reach).map(move |k| k as f64 - reach as f64)
+}
+
+/// Taps of the derivatives at time 0 of the weighted least-squares polynomial of `terms`
+/// coefficients: an orthogonal basis by Gram and Schmidt. `unit` is the unit of `times` in seconds.
+fn fit(times: &[f64], weights: Vec<f64>, terms: usize, unit: f64) -> [Vec<f64>; 4] {
+    let mut taps = std::array::from_fn(|_| vec![0.0; times.len()]);
+    let mut basis: Vec<(Vec<f64>, [f64; TERMS], f64)> = Vec::new();
+    for degree in 0..terms {
+        let mut values: Vec<f64> = times.iter().map(|t| t.powi(degree as i32)).collect();
+        let mut coefficients = [0.0; TERMS];
+        coefficients[degree] = 1.0;
+        // Twice: the second pass removes what rounding left of the first.
+        for _ in 0..2 {
+            for (other, other_coefficients, norm) in &basis {
+                let share = dot(&values, other, &weights) / norm;
+                values
+                    .iter_mut()
+                    .zip(other)
+                    .for_each(|(v, o)| *v -= share * o);
+                for (c, o) in coefficients.iter_mut().zip(other_coefficients) {
+                    *c -= share * o;
+                }
+            }
+        }
+        let norm = dot(&values, &values, &weights);
+        for (order, taps) in taps.iter_mut().enumerate().take(terms) {
+            let scale = coefficients[order] * FACTORIAL[order] / norm / unit.powi(order as i32);
+            for ((tap, value), weight) in taps.iter_mut().zip(&values).zip(&weights) {
+                *tap += scale * value * weight;
+            }
+        }
+        basis.push((values, coefficients, norm));
+    }
+    taps
+}
+
+fn dot(a: &[f64], b: &[f64], weights: &[f64]) -> f64 {
+    let products = a.iter().zip(b).zip(weights).map(|((a, b), w)| a * b * w);
+    products.sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    fn gain(filter: &TimeFilter, order: usize) -> f64 {
+        filter.taps(order).iter().map(|t| t * t).sum::<f64>().sqrt()
+    }
+
+    fn at(fps: f64) -> FrameRate {
+        FrameRate::new(fps).unwrap()
+    }
+
+    #[test]
+    fn short_filters_have_the_published_noise_gains() {
+        let second = TimeFilter::second_difference(at(20.0));
+        assert!((gain(&second, 2) - 979.795_897_113_271_2).abs() < 1e-8);
+        let five = TimeFilter::savitzky_golay_5(at(20.0));
+        assert!((gain(&five, 2) - 213.808_993_529_939_5).abs() < 1e-8);
+    }
+
+    #[test]
+    fn quartics_are_exact_at_any_rate() {
+        let motion = |t: f64| 1.0 - 2.0 * t + 3.0 * t * t - 4.0 * t.powi(3) + 5.0 * t.powi(4);
+        for fps in [8.0, 20.0, 30.0, 60.0, 120.0, 240.0] {
+            let filter = TimeFilter::new(at(fps), 4.0).unwrap();
+            for (order, expected) in [1.0, -2.0, 6.0, -24.0].into_iter().enumerate() {
+                let found: f64 = frames(filter.reach())
+                    .zip(filter.taps(order))
+                    .map(|(k, tap)| tap * motion(k / fps))
+                    .sum();
+                assert!((found - expected).abs() < 1e-6, "{fps} {order} {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_response_is_the_stated_one_at_all_common_rates() {
+        for fps in [20.0, 30.0, 60.0, 120.0] {
+            let filter = TimeFilter::new(at(fps), 4.0).unwrap();
+            for hertz in [0.5, 1.0, 2.0, 3.0, 4.0] {
+                let omega = 2.0 * PI * hertz;
+                let found: f64 = frames(filter.reach())
+                    .zip(filter.taps(2))
+                    .map(|(k, tap)| tap * (omega * k / fps).cos())
+                    .sum::<f64>()
+                    / -(omega * omega);
+                let s = (omega * SIGMA_HZ / 4.0).powi(2) / 2.0;
+                let stated = (1.0 + s) * (-s).exp();
+                assert!(
+                    (found - stated).abs() < 0.02,
+                    "{fps} {hertz}: {found} {stated}"
+                );
+            }
+            let omega = 8.0 * PI;
+            let s = (omega * SIGMA_HZ / 4.0).powi(2) / 2.0;
+            assert!(((1.0 + s) * (-s).exp() - 0.5_f64.sqrt()).abs() < 1e-4);
+        }
+    }
+}
