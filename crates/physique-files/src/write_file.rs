@@ -1,0 +1,28 @@
+//! Files that are either written whole or left as they were.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use crate::Error;
+
+/// Writes `bytes` beside `path`, then renames: nobody sees half a file.
+///
+/// # Errors
+/// [`Error::Io`] with the path that failed.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let io = |source| Error::Io {
+        path: path.into(),
+        source,
+    };
+    let mut beside = path.as_os_str().to_owned();
+    beside.push(format!(".{}.partial", std::process::id()));
+    let beside = PathBuf::from(beside);
+    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, path));
+    written.map_err(|source| {
+        // The first error is the one to tell; what is left of the file may not even exist.
+        let _ = fs::remove_file(&beside);
+        io(source)
+    })
+}
