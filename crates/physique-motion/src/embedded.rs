@@ -1,7 +1,7 @@
 //! Real motions that come with the library, ready for demonstrations, examples and tests.
 //!
 //! Six clips that DeepMimic's authors prepared from motion capture, taken from PyPI `pybullet`
-//! 3.2.7 (zlib licence) and mapped to the open body: some 250 kB, see `assets/motion/CARD.md`.
+//! 3.2.7 (zlib licence) and mapped to the open body: some 250 kB, see `assets/CARD.md`.
 //!
 //! ```
 //! use physique_motion::embedded;
@@ -41,7 +41,7 @@ macro_rules! clip {
         EmbeddedClip {
             name: $name,
             summary: $summary,
-            bytes: include_bytes!(concat!("../../../assets/motion/", $name, ".motion.npz")),
+            bytes: include_bytes!(concat!("../assets/", $name, ".motion.npz")),
         }
     };
 }

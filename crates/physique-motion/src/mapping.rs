@@ -24,6 +24,7 @@ mod human_joints;
 mod legs;
 mod name;
 mod name_table;
+mod own_body;
 mod reference;
 mod report;
 mod retarget;
@@ -83,6 +84,8 @@ pub struct Mapped {
 
 /// Maps a clip of any humanoid skeleton to the body.
 ///
+/// A clip of the body's own skeleton ([`SkeletonClip::from_motion`]) comes back as it was.
+///
 /// Cost: about 10 microseconds a frame, and some 400 frames more to find the alignment.
 ///
 /// # Errors
@@ -106,6 +109,12 @@ pub fn map_to_body(
                 .to_owned(),
         );
     }
+    let is_own = own_body::is_own(clip.skeleton(), body);
+    let options = if is_own {
+        &own_body::unchanged(options)
+    } else {
+        options
+    };
     let t_pose_frames = t_pose::leading_frames(clip, &found.joints);
     let first_frame = if options.keep_t_pose {
         0
@@ -113,6 +122,11 @@ pub fn map_to_body(
         t_pose_frames
     };
     let retarget = Retarget::new(clip, &found.joints, body, t_pose_frames > 0, options)?;
+    let retarget = if is_own {
+        retarget.on_ground_of_source()
+    } else {
+        retarget
+    };
     let (motion, outcome) = retarget.run(clip, first_frame)?;
     let report = MappingReport::new(clip, found, &outcome, first_frame, notes);
     Ok(Mapped { motion, report })

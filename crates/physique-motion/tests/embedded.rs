@@ -34,7 +34,7 @@ fn every_clip_loads_with_its_name_its_source_and_its_licence() {
 
 #[test]
 fn hashes_are_those_of_the_list() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/motion/");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/");
     let sums = std::fs::read_to_string(format!("{folder}sha256sums")).unwrap();
     assert_eq!(sums.lines().count(), embedded::clips().len());
     for line in sums.lines() {

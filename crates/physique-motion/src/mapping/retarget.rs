@@ -28,6 +28,8 @@ pub(super) struct Retarget<'a> {
     scale: f32,
     plant_feet: bool,
     share_twist: bool,
+    /// Height in the source's world that becomes height 0.
+    ground: f32,
     /// By side: the joint and place in its frame of the ball of the foot.
     balls: [Option<(usize, Vec3)>; 2],
 }
@@ -79,12 +81,14 @@ impl<'a> Retarget<'a> {
             });
         }
         let scale = body.leg_length() / leg;
+        let soles = Soles::measure(clip, human, body);
         Ok(Self {
             human,
             body,
             alignment: Alignment::find(clip, human, body, leads_with_t_pose),
             spine: SpineWeights::new(human, &pose, body),
-            soles: Soles::measure(clip, human, body),
+            ground: ground(&soles, body, scale),
+            soles,
             scale,
             plant_feet: options.plant_feet,
             share_twist: options.share_wrist_twist,
@@ -100,7 +104,7 @@ impl<'a> Retarget<'a> {
         clip: &SkeletonClip,
         first_frame: usize,
     ) -> Result<(Motion, Outcome), Error> {
-        let ground = self.ground();
+        let ground = self.ground;
         let frames = clip.frame_count() - first_frame;
         let mut root_translation = Vec::with_capacity(frames);
         let mut rotations = Vec::with_capacity(frames * Joint::COUNT);
@@ -142,13 +146,12 @@ impl<'a> Retarget<'a> {
         ))
     }
 
-    /// Height in the source's world that becomes height 0: where the soles of a standing foot
-    /// are, unless the feet never come down to the source's height 0.
-    fn ground(&self) -> f32 {
-        /// A foot that stays this much over height 0 is in the air rather than on the ground.
-        const IN_THE_AIR: f32 = 0.12;
-        let sole = self.soles.ankle_height - self.body.height(Joint::LeftAnkle) / self.scale;
-        if sole > IN_THE_AIR { 0.0 } else { sole }
+    /// The same with the source's heights left alone.
+    pub(super) fn on_ground_of_source(self) -> Self {
+        Self {
+            ground: 0.0,
+            ..self
+        }
     }
 
     fn notes(&self, ground: f32) -> Vec<String> {
@@ -262,4 +265,13 @@ impl<'a> Retarget<'a> {
         }
         positions
     }
+}
+
+/// Where the soles of a standing foot are in the source's world, unless its feet never come down
+/// to its height 0.
+fn ground(soles: &Soles, body: &BodyRest, scale: f32) -> f32 {
+    /// A foot that stays this much over height 0 is in the air rather than on the ground.
+    const IN_THE_AIR: f32 = 0.12;
+    let sole = soles.ankle_height - body.height(Joint::LeftAnkle) / scale;
+    if sole > IN_THE_AIR { 0.0 } else { sole }
 }
