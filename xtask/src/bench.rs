@@ -30,21 +30,37 @@ const CRATES: [&str; 5] = [
     "physique-view",
 ];
 
-const GOALS: [Goal; 3] = [
+/// Goals of whole groups: every benchmark whose name begins so.
+const GOALS: [Goal; 6] = [
     Goal {
-        benchmark: "sia_6_cm",
+        benchmark: "sia_voxels/",
         goal: 0.05,
         stretch: 0.03,
     },
     Goal {
-        benchmark: "column_scan_1_cm",
+        benchmark: "covered_volumes/10/",
         goal: 0.6,
         stretch: 0.3,
     },
     Goal {
-        benchmark: "triangle_pairs",
+        benchmark: "overlaps_by_body_part/",
+        goal: 0.6,
+        stretch: 0.3,
+    },
+    Goal {
+        benchmark: "triangle_pairs/",
         goal: 3.0,
         stretch: 1.0,
+    },
+    Goal {
+        benchmark: "triangle_pairs_with_shared_vertices/",
+        goal: 3.0,
+        stretch: 1.0,
+    },
+    Goal {
+        benchmark: "native_hour",
+        goal: 60_000.0,
+        stretch: 30_000.0,
     },
 ];
 
@@ -70,7 +86,9 @@ pub(crate) fn run(peers: bool) -> Result<()> {
         "met",
     ]);
     for row in &rows {
-        let goal = GOALS.iter().find(|goal| goal.benchmark == row.name);
+        let goal = GOALS
+            .iter()
+            .find(|goal| row.name.starts_with(goal.benchmark));
         let met = goal.map_or("", |goal| match row.milliseconds {
             ms if ms <= goal.stretch => "stretch",
             ms if ms <= goal.goal => "goal",
@@ -126,23 +144,20 @@ fn skinning_peer(rows: &[Row]) -> Result<()> {
 }
 
 /// Names and medians in milliseconds of divan's tree: the third column of each line with times.
+///
+/// A name is the path through the tree, as in `covered_volumes/10/rest`; each level is indented by
+/// three characters.
 fn medians(printed: &str) -> impl Iterator<Item = (String, f64)> + '_ {
-    let mut group = String::new();
+    let mut path: Vec<String> = Vec::new();
     printed.lines().filter_map(move |line| {
-        let (name, rest) = line.trim_start_matches(['│', ' ']).split_once("─ ")?;
-        debug_assert!(name == "├" || name == "╰");
-        let mut words = rest.split_whitespace();
-        let name = words.next()?.to_owned();
-        let columns: Vec<_> = rest.split('│').collect();
-        let nested = line.starts_with(['│', ' ']);
-        match columns.get(2).and_then(|median| milliseconds(median)) {
-            Some(median) if nested => Some((format!("{group}/{name}"), median)),
-            Some(median) => Some((name, median)),
-            None => {
-                group = name;
-                None
-            }
-        }
+        let (branch, rest) = line.split_once("─ ")?;
+        let depth = branch.chars().count().saturating_sub(1) / 3;
+        // Names end where the columns begin, after at least two blanks.
+        let name = rest.split("  ").next()?.trim();
+        path.truncate(depth);
+        path.push(name.to_owned());
+        let median = milliseconds(rest.split('│').nth(2)?)?;
+        Some((path.join("/"), median))
     })
 }
 
@@ -171,15 +186,16 @@ skinning                  fastest       │ slowest       │ median        │ 
 ├─ batch                  542.3 µs      │ 2.042 ms      │ 690.2 µs      │ 711 µs        │ 100     │ 100
 │                         118 Kitem/s   │ 31.34 Kitem/s │ 92.71 Kitem/s │ 90 Kitem/s    │         │
 ├─ sizes                                │               │               │               │         │
-│  ├─ 64                  1.5 ms        │ 2.042 ms      │ 1.7 ms        │ 711 µs        │ 100     │ 100
-│  ╰─ 128                 1.5 s         │ 2.042 s       │ 1.7 s         │ 711 µs        │ 100     │ 100
+│  ├─ arms down           1.5 ms        │ 2.042 ms      │ 1.7 ms        │ 711 µs        │ 100     │ 100
+│  ╰─ deep                              │               │               │               │         │
+│     ╰─ 128              1.5 s         │ 2.042 s       │ 1.7 s         │ 711 µs        │ 100     │ 100
 ╰─ one                    17.61 µs      │ 111.2 µs      │ 17.73 µs      │ 18.74 µs      │ 100     │ 100
 ";
         let found: Vec<_> = medians(printed).collect();
         let expected = [
             ("batch", 0.6902),
-            ("sizes/64", 1.7),
-            ("sizes/128", 1700.0),
+            ("sizes/arms down", 1.7),
+            ("sizes/deep/128", 1700.0),
             ("one", 0.01773),
         ];
         assert_eq!(found.len(), expected.len());

@@ -24,7 +24,9 @@ pub(crate) fn check() -> Result<()> {
     for folder in asset_folders()? {
         let has_ending = |path: &Path, ending| path.extension().is_some_and(|e| e == ending);
         let is_card = |path: &PathBuf| has_ending(path, "md") || path.ends_with("sha256sums");
-        let files = files(&folder)?.into_iter().filter(|path| !has_ending(path, "txt"));
+        let files = files(&folder)?
+            .into_iter()
+            .filter(|path| !has_ending(path, "txt"));
         let (cards, assets): (Vec<_>, Vec<_>) = files.partition(is_card);
         let cards = cards
             .iter()
@@ -38,7 +40,10 @@ pub(crate) fn check() -> Result<()> {
             }
         }
     }
-    ensure!(count > 0, "no assets found: this check has lost its folders");
+    ensure!(
+        count > 0,
+        "no assets found: this check has lost its folders"
+    );
     if !missing.is_empty() {
         bail!("no card states the hash of:\n  {}", missing.join("\n  "));
     }
