@@ -5,10 +5,9 @@ use std::path::PathBuf;
 use crate::npz::ArrayError;
 use crate::pickle::PickleError;
 
-/// Why a file could not be read or written.
+/// Why the bytes of a file could not be read or written.
 #[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum Error {
+pub enum FileError {
     /// The operating system refused.
     #[error("{path}: {source}")]
     Io {
@@ -29,6 +28,15 @@ pub enum Error {
         /// Bytes allowed.
         limit: u64,
     },
+}
+
+/// Why the content of a file could not be read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The bytes of the file could not be read.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// A NumPy array or archive that is broken.
     #[error(transparent)]
     Array(#[from] ArrayError),

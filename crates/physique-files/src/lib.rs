@@ -24,7 +24,7 @@ mod read_file;
 pub mod torch;
 mod write_file;
 
-pub use error::Error;
+pub use error::{Error, FileError};
 pub use named::named_arrays;
 pub use read_file::read_file;
 pub use write_file::write_file;

@@ -2,14 +2,14 @@
 
 use std::{fs::File, io::Read as _, path::Path};
 
-use crate::Error;
+use crate::FileError;
 
 /// The bytes of a file, unless there are more than `limit`.
 ///
 /// # Errors
-/// [`Error::Io`]; [`Error::TooLarge`], before anything is read where the system knows the length.
-pub fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, Error> {
-    let io = |source| Error::Io {
+/// [`FileError::Io`]; [`FileError::TooLarge`], before anything is read where the system knows the length.
+pub fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
+    let io = |source| FileError::Io {
         path: path.into(),
         source,
     };
@@ -23,7 +23,7 @@ pub fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, Error> {
         found = bytes.len() as u64;
     }
     if found > limit {
-        return Err(Error::TooLarge {
+        return Err(FileError::TooLarge {
             path: path.into(),
             found,
             limit,

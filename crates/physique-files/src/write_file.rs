@@ -5,14 +5,14 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::Error;
+use crate::FileError;
 
 /// Writes `bytes` beside `path`, then renames: nobody sees half a file.
 ///
 /// # Errors
-/// [`Error::Io`] with the path that failed.
-pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let io = |source| Error::Io {
+/// [`FileError::Io`] with the path that failed.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    let io = |source| FileError::Io {
         path: path.into(),
         source,
     };

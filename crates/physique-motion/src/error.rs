@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use physique_files::FileError;
+
 /// Why a motion could not be read, made, mapped or written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -191,4 +193,18 @@ pub enum Error {
         /// The number.
         found: f32,
     },
+}
+
+impl From<FileError> for Error {
+    fn from(error: FileError) -> Self {
+        match error {
+            FileError::TooLarge { path, found, limit } => Self::Limit {
+                path,
+                what: "the size in bytes",
+                found,
+                limit,
+            },
+            FileError::Io { path, source } => Self::Io { path, source },
+        }
+    }
 }

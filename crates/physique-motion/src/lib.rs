@@ -17,7 +17,6 @@ pub mod limits;
 pub mod mapping;
 pub mod motion;
 pub mod native;
-pub mod npz;
 pub mod read;
 mod read_file;
 pub mod recording;
@@ -29,6 +28,8 @@ pub use error::Error;
 pub use frame_rate::FrameRate;
 pub use limits::Limits;
 pub use motion::{Motion, MotionShape, ShapeSpace};
+/// NumPy's archives; they live in their own crate, which bodies share.
+pub use physique_files::npz;
 pub use read::{ReadOptions, SourceMotion, parse_motion, read_motion};
 pub use recording::Recording;
 pub use skeleton::{Skeleton, SkeletonJoint, SkeletonPose};

@@ -1,6 +1,6 @@
-//! Whole files within a limit.
+//! Whole files within a limit, with this crate's errors.
 
-use std::{fs::File, io::Read as _, path::Path};
+use std::path::Path;
 
 use crate::Error;
 
@@ -9,26 +9,5 @@ use crate::Error;
 /// # Errors
 /// [`Error::Io`]; [`Error::Limit`], before anything is read where the system knows the length.
 pub(crate) fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, Error> {
-    let io = |source| Error::Io {
-        path: path.into(),
-        source,
-    };
-    let file = File::open(path).map_err(io)?;
-    let mut found = file.metadata().map_err(io)?.len();
-    let mut bytes = Vec::new();
-    if found <= limit {
-        // A pipe has no length beforehand, so the limit holds while reading, too.
-        let mut reader = file.take(limit.saturating_add(1));
-        reader.read_to_end(&mut bytes).map_err(io)?;
-        found = bytes.len() as u64;
-    }
-    if found > limit {
-        return Err(Error::Limit {
-            path: path.into(),
-            what: "the size in bytes",
-            found,
-            limit,
-        });
-    }
-    Ok(bytes)
+    Ok(physique_files::read_file(path, limit)?)
 }

@@ -1,9 +1,6 @@
-//! Files that are either written whole or left as they were.
+//! Files that are either written whole or left as they were, with this crate's errors.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::path::Path;
 
 use crate::Error;
 
@@ -12,17 +9,5 @@ use crate::Error;
 /// # Errors
 /// [`Error::Io`] with the path that failed.
 pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let io = |source| Error::Io {
-        path: path.into(),
-        source,
-    };
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(format!(".{}.partial", std::process::id()));
-    let beside = PathBuf::from(beside);
-    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, path));
-    written.map_err(|source| {
-        // The first error is the one to tell; what is left of the file may not even exist.
-        let _ = fs::remove_file(&beside);
-        io(source)
-    })
+    Ok(physique_files::write_file(path, bytes)?)
 }

@@ -4,7 +4,7 @@
 
 use std::io::{Cursor, Write};
 
-use physique_motion::npz::{Archive, ArchiveWriter, Array, ArrayError, ArrayLimits};
+use physique_files::npz::{Archive, ArchiveWriter, Array, ArrayError, ArrayLimits};
 use proptest::prelude::*;
 use zip::write::SimpleFileOptions;
 
