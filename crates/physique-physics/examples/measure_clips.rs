@@ -4,7 +4,8 @@
 use std::time::Instant;
 
 use physique_body::{Body, Sex, open_body};
-use physique_motion::{Motion, ReadOptions, embedded, read_motion};
+use physique_motion::mapping::{BodyRest, MappingOptions, map_to_body};
+use physique_motion::{Motion, ReadOptions, SourceMotion, embedded, read_motion};
 use physique_physics::{GroundChoice, Physics, PhysicsOptions};
 
 type Failure = Box<dyn std::error::Error>;
@@ -14,23 +15,48 @@ fn main() -> Result<(), Failure> {
     let physics = Physics::new(&body)?;
     println!(
         "{:28}{:>6}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}",
-        "clip", "s", "est cm", "pen cm", "flt cm", "uns %", "fly %", "slide", "in %", "out cm", "MoS cm",
-        "acc", "jerk", "jit mm"
+        "clip",
+        "s",
+        "est cm",
+        "pen cm",
+        "flt cm",
+        "uns %",
+        "fly %",
+        "slide",
+        "in %",
+        "out cm",
+        "MoS cm",
+        "acc",
+        "jerk",
+        "jit mm"
     );
     let files: Vec<_> = std::env::args().skip(1).collect();
     for clip in embedded::clips().iter().filter(|_| files.is_empty()) {
         print(&physics, clip.name, &clip.load()?.motion)?;
     }
     for file in &files {
-        let source = read_motion(file.as_ref(), &ReadOptions::default())?;
+        let source = read_motion(file, &ReadOptions::default())?;
         let name = file.rsplit('/').next().unwrap_or(file);
-        print(&physics, name, &source.on_body(&body)?)?;
+        let motion = match source {
+            SourceMotion::Skeleton(clip) => {
+                map_to_body(&clip, &BodyRest::from(&body), &MappingOptions::default())?.motion
+            }
+            SourceMotion::Body(recording) => recording.motion,
+        };
+        print(&physics, name, &motion)?;
     }
     Ok(())
 }
 
 fn print(physics: &Physics, name: &str, motion: &Motion) -> Result<(), Failure> {
-    let options = PhysicsOptions::default();
+    let number =
+        |name: &str, default| std::env::var(name).map_or(default, |v| v.parse().unwrap_or(default));
+    let options = PhysicsOptions {
+        balance_cutoff_hz: number("CUTOFF", 4.0),
+        contact_height: number("HEIGHT", 0.03),
+        contact_speed: number("SPEED", 0.4),
+        ..PhysicsOptions::default()
+    };
     let estimated = PhysicsOptions {
         ground: GroundChoice::Estimated,
         ..options

@@ -22,7 +22,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         };
         let body = Body::from_attributes(open_body()?, &person)?;
         let points = MassPoints::new(&body, 0.02)?;
-        println!("{name}: {:.1} kg in {} points", body.mass(), points.masses().len());
+        println!(
+            "{name}: {:.1} kg in {} points",
+            body.mass(),
+            points.masses().len()
+        );
         for segment in Segment::ALL {
             let percent = 100.0 * points.segment_mass(segment) / body.mass();
             let table = segment.de_leva_percent(sex);

@@ -33,6 +33,15 @@ pub enum Error {
         /// What this one has.
         found: String,
     },
+    /// A name that is no protocol's.
+    #[error(
+        "Protocol `{found}`: expected humos-released, humos-corrected, physdiff, gmd, \
+         reindiffuse, kimodo, edge-pfc, mann, humor or ipman."
+    )]
+    Protocol {
+        /// The name given.
+        found: String,
+    },
     /// Slices of a motion whose lengths disagree.
     #[error("Motion slices: {what} must hold {expected} elements, found {found}.")]
     Length {

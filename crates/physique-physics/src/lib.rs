@@ -17,6 +17,7 @@ pub mod loss;
 pub mod measures;
 pub mod options;
 pub mod physics;
+pub mod protocol;
 pub mod rig;
 pub mod segment;
 pub mod soles;
@@ -35,6 +36,7 @@ pub use measures::{
 };
 pub use options::{GroundChoice, PhysicsOptions};
 pub use physics::Physics;
+pub use protocol::{Floor, Protocol, ProtocolMeasure};
 pub use rig::Rig;
 pub use segment::Segment;
 pub use support::Support;

@@ -16,6 +16,8 @@ const SIGMA_HZ: f64 = 0.233_70;
 const WINDOW_SIGMAS: f64 = 4.5;
 /// A narrower Gaussian than this many frames does not see its neighbours.
 const LEAST_SIGMA_FRAMES: f64 = 0.7;
+/// Beyond this the window would hold more frames than any motion.
+const HIGHEST_RATE: f64 = 10_000.0;
 /// Coefficients of the fitted quartic.
 const TERMS: usize = 5;
 const FACTORIAL: [f64; 4] = [1.0, 1.0, 2.0, 6.0];
@@ -34,13 +36,21 @@ impl TimeFilter {
     /// [`TimeFilter::cutoff_hz`] tells.
     ///
     /// # Errors
-    /// [`Error::Option`] for a cut-off that is not between 0.1 and 50 Hz.
+    /// [`Error::Option`] for a cut-off that is not between 0.1 and 50 Hz, or for more than 10,000
+    /// frames a second.
     pub fn new(frame_rate: FrameRate, cutoff_hz: f64) -> Result<Self, Error> {
         if !(0.1..=50.0).contains(&cutoff_hz) {
             return Err(Error::Option {
                 option: "cut-off of the time derivatives",
                 expected: "0.1 to 50 Hz",
                 found: cutoff_hz,
+            });
+        }
+        if frame_rate.per_second() > HIGHEST_RATE {
+            return Err(Error::Option {
+                option: "frame rate of the motion",
+                expected: "at most 10000 frames a second",
+                found: frame_rate.per_second(),
             });
         }
         let frame = frame_rate.frame_seconds();
