@@ -1,19 +1,45 @@
 //! Progress on standard error, where a person watches.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// A bar over `count` motions; invisible when standard error is not a terminal.
-pub(crate) fn motions(count: usize) -> ProgressBar {
-    let bar = ProgressBar::new(count as u64);
-    // The template is a constant, so a mistake in it shows on the first run.
-    if let Ok(style) = ProgressStyle::with_template(
-        "{bar:40} {pos}/{len} motions, {msg} frames, {elapsed} (left: {eta})",
-    ) {
-        bar.set_style(style);
+/// A bar over motions that counts frames; invisible when standard error is not a terminal.
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    frames: AtomicUsize,
+}
+
+impl Progress {
+    pub(crate) fn new(motions: usize) -> Self {
+        let bar = ProgressBar::new(motions as u64);
+        // The template is a constant; were it wrong, indicatif's own style would show.
+        if let Ok(style) = ProgressStyle::with_template(
+            "{bar:40} {pos}/{len} motions, {msg} frames, {elapsed} (left: {eta})",
+        ) {
+            bar.set_style(style);
+        }
+        bar.set_message("0");
+        bar.enable_steady_tick(Duration::from_millis(200));
+        Self {
+            bar,
+            frames: AtomicUsize::new(0),
+        }
     }
-    bar.set_message("0");
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
+
+    /// Some frames of a motion are done.
+    pub(crate) fn frames(&self, count: usize) {
+        let total = self.frames.fetch_add(count, Ordering::Relaxed) + count;
+        self.bar.set_message(total.to_string());
+    }
+
+    /// A whole motion is done.
+    pub(crate) fn motion(&self) {
+        self.bar.inc(1);
+    }
+
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
 }

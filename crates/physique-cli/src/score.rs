@@ -2,7 +2,6 @@
 
 use std::io::Write;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use anyhow::{Context, Result};
 use physique::load::{self, LoadOptions};
@@ -13,7 +12,7 @@ use rayon::prelude::*;
 use crate::arguments::ScoreArguments;
 use crate::exit::Exit;
 use crate::files::motion_files;
-use crate::progress;
+use crate::progress::Progress;
 use crate::table::table;
 use crate::view::load_options;
 use crate::write::write_file;
@@ -33,20 +32,18 @@ pub(crate) fn run(arguments: &ScoreArguments) -> Result<Exit> {
     let files = motion_files(&arguments.files)?;
     let load_options = load_options(&arguments.read)?;
 
-    let bar = progress::motions(files.len());
-    let frames = AtomicUsize::new(0);
+    let progress = Progress::new(files.len());
     let motions: Vec<MotionReport> = files
         .par_iter()
         .map(|file| {
-            let report = score_file(&scorer, file, &load_options);
-            let scored = report.score.as_ref().map_or(0, |score| score.frames);
-            let total = frames.fetch_add(scored, Ordering::Relaxed) + scored;
-            bar.set_message(total.to_string());
-            bar.inc(1);
+            let report = score_file(&scorer, file, &load_options, |frames| {
+                progress.frames(frames)
+            });
+            progress.motion();
             report
         })
         .collect();
-    bar.finish_and_clear();
+    progress.finish();
 
     let report = Report::new(options.protocol, scorer.body(), motions);
     let text = if arguments.json {
@@ -64,10 +61,15 @@ pub(crate) fn run(arguments: &ScoreArguments) -> Result<Exit> {
 }
 
 /// Scores one file; what goes wrong becomes its `unscorable`.
-pub(crate) fn score_file(scorer: &Scorer, file: &Path, options: &LoadOptions) -> MotionReport {
+fn score_file(
+    scorer: &Scorer,
+    file: &Path,
+    options: &LoadOptions,
+    progress: impl Fn(usize) + Sync,
+) -> MotionReport {
     let name = file.display().to_string();
     let outcome = load::load(file, scorer.body(), options).and_then(|loaded| {
-        let score = scorer.score(&loaded.motion)?;
+        let score = scorer.score_with_progress(&loaded.motion, progress)?;
         Ok((loaded, score))
     });
     match outcome {
