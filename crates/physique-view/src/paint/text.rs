@@ -43,11 +43,8 @@ pub struct TextStyle {
 
 static REGULAR: LazyLock<FontRef<'static>> =
     LazyLock::new(|| embedded(include_bytes!("../../assets/Inter-Regular.ttf")));
-static SEMI_BOLD: LazyLock<FontRef<'static>> = LazyLock::new(|| {
-    embedded(include_bytes!(
-        "../../assets/Inter-SemiBold.ttf"
-    ))
-});
+static SEMI_BOLD: LazyLock<FontRef<'static>> =
+    LazyLock::new(|| embedded(include_bytes!("../../assets/Inter-SemiBold.ttf")));
 
 #[expect(
     clippy::expect_used,
