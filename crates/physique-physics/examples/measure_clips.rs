@@ -1,11 +1,15 @@
 //! Physics of motion files, or of the embedded clips, on the mean body:
 //! `cargo run --release -p physique-physics --example measure_clips -- walk.bvh ...`.
+//!
+//! `CUTOFF` (Hz), `HEIGHT` (m) and `SPEED` (m/s) in the environment change the options, `FPS`
+//! resamples the motions first.
 
 use std::time::Instant;
 
 use physique_body::{Body, Sex, open_body};
 use physique_motion::mapping::{BodyRest, MappingOptions, map_to_body};
-use physique_motion::{Motion, ReadOptions, SourceMotion, embedded, read_motion};
+use physique_motion::{FrameRate, Motion, ReadOptions, SourceMotion, embedded, read_motion};
+use physique_physics::protocol::resampled;
 use physique_physics::{GroundChoice, Physics, PhysicsOptions};
 
 type Failure = Box<dyn std::error::Error>;
@@ -48,13 +52,20 @@ fn main() -> Result<(), Failure> {
     Ok(())
 }
 
+/// A number from the environment.
+fn number(name: &str) -> Option<f64> {
+    std::env::var(name).ok()?.parse().ok()
+}
+
 fn print(physics: &Physics, name: &str, motion: &Motion) -> Result<(), Failure> {
-    let number =
-        |name: &str, default| std::env::var(name).map_or(default, |v| v.parse().unwrap_or(default));
+    let motion = &match number("FPS") {
+        Some(fps) => resampled(motion, FrameRate::new(fps)?)?,
+        None => motion.clone(),
+    };
     let options = PhysicsOptions {
-        balance_cutoff_hz: number("CUTOFF", 4.0),
-        contact_height: number("HEIGHT", 0.03),
-        contact_speed: number("SPEED", 0.4),
+        balance_cutoff_hz: number("CUTOFF").unwrap_or(4.0),
+        contact_height: number("HEIGHT").unwrap_or(0.03),
+        contact_speed: number("SPEED").unwrap_or(0.4),
         ..PhysicsOptions::default()
     };
     let estimated = PhysicsOptions {

@@ -4,7 +4,10 @@
 use physique_body::{Attributes, Body, Sex, open_body};
 use physique_physics::{MassPoints, Segment};
 
-const PEOPLE: [(&str, Sex, Option<(f64, f64)>); 5] = [
+/// Name, sex, and stature and mass where they are not the mean.
+type Person = (&'static str, Sex, Option<(f64, f64)>);
+
+const PEOPLE: [Person; 5] = [
     ("mean woman", Sex::Female, None),
     ("mean man", Sex::Male, None),
     ("woman, 1.53 m, 46 kg", Sex::Female, Some((1.53, 46.0))),
