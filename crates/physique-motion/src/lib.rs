@@ -13,6 +13,7 @@ pub mod error;
 pub mod features;
 pub mod frame_rate;
 pub mod glb;
+pub mod inverse_kinematics;
 pub mod limits;
 pub mod mapping;
 pub mod motion;

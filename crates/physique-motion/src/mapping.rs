@@ -38,6 +38,7 @@ mod twist;
 pub use alignment::AlignedBy;
 pub use body_rest::BodyRest;
 pub use find::{Found, FoundBy, find_joints};
+pub(crate) use fit_error::FitErrorGatherer;
 pub use fit_error::{Distances, FitError};
 pub use human_joints::{HumanJoints, Limbs};
 pub use name_table::NameTable;

@@ -1,6 +1,6 @@
 //! Bone directions at rest of the two bodies that the self-intersection paper poses.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::FeatureSkeleton;
 
@@ -20,6 +20,14 @@ pub(super) const fn published(skeleton: FeatureSkeleton) -> [DVec3; 22] {
     match skeleton {
         FeatureSkeleton::HumanMl3d => HUMAN_ML3D,
         FeatureSkeleton::Kit => KIT,
+    }
+}
+
+impl FeatureSkeleton {
+    /// Unit vectors from the parent to each of SMPL's 22 joints of the rest body that stands for
+    /// the people of this data set, facing +Z with its left at +X; zero for the pelvis.
+    pub fn smpl_rest_directions(self) -> [Vec3; 22] {
+        published(self).map(|direction| direction.as_vec3())
     }
 }
 

@@ -15,7 +15,7 @@ pub struct Distances {
 
 impl Distances {
     /// From distances in metres, which are sorted in place; zero for none.
-    pub(super) fn of(metres: &mut [f32]) -> Self {
+    pub(crate) fn of(metres: &mut [f32]) -> Self {
         metres.sort_by(f32::total_cmp);
         let Some(&max) = metres.last() else {
             return Self::default();
@@ -44,16 +44,16 @@ pub struct FitError {
 
 /// Gathers distances frame by frame.
 #[derive(Clone, Debug, Default)]
-pub(super) struct FitErrorGatherer {
+pub(crate) struct FitErrorGatherer {
     by_joint: [Vec<f32>; Joint::COUNT],
 }
 
 impl FitErrorGatherer {
-    pub(super) fn add(&mut self, joint: Joint, metres: f32) {
+    pub(crate) fn add(&mut self, joint: Joint, metres: f32) {
         self.by_joint[joint.index()].push(metres);
     }
 
-    pub(super) fn finish(mut self) -> FitError {
+    pub(crate) fn finish(mut self) -> FitError {
         let mut all: Vec<f32> = self.by_joint.iter().flatten().copied().collect();
         let by_joint = Joint::ALL
             .into_iter()

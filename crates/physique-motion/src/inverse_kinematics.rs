@@ -1,0 +1,175 @@
+//! From joint positions to the 22 rotations of the body: [`solve`].
+//!
+//! Every bone's direction is in the data, so positions can be met in closed form, parents first,
+//! each joint aimed from where the body's own joint came to be. What positions do not say is how
+//! far a bone turns about itself, and only that is a question of the whole clip:
+//!
+//! * pelvis and chest carry three bones each, which fix their whole rotation, tilt included
+//!   (Kabsch's problem); the spine between them shares what remains;
+//! * thighs and upper arms turn so that knee and elbow bend as hinges do, and the foot points where
+//!   it points; straight limbs say little, so the turn is found for all frames at once,
+//!   weighted by what each frame says, and kept steady in time (a tridiagonal system);
+//! * collars, neck, shins, forearms and ankles swing without twist, and head, hands and toes, which
+//!   have no bones below them, stay with their parents: nothing is known of them.
+
+use glam::Vec3;
+use physique_body::Joint;
+
+use crate::{
+    Error, Motion,
+    features::JointPositions,
+    mapping::{BodyRest, FitError, FitErrorGatherer},
+};
+
+mod limb;
+mod pose;
+mod rigid;
+mod source_bones;
+mod twist;
+
+use limb::LIMBS;
+use pose::SolvedPose;
+use source_bones::SourceBones;
+
+/// What to take for granted about the positions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IkOptions {
+    /// Unit vectors from the parent to each joint of the **positions'** skeleton at rest, facing
+    /// +Z; otherwise those of the data set's body (SMPL-H for HumanML3D and for KIT).
+    ///
+    /// Bone lengths are always taken from the clip.
+    pub rest_directions: Option<[Vec3; Joint::COUNT]>,
+    /// How long a straight limb remembers its twist, in seconds.
+    pub twist_memory: f32,
+    /// Moves the whole clip up or down so that the lowest sole of all frames stands at height 0.
+    ///
+    /// Without it the pelvis stands where it stood, times [`IkSolution::scale`].
+    pub soles_on_ground: bool,
+}
+
+impl Default for IkOptions {
+    fn default() -> Self {
+        Self {
+            rest_directions: None,
+            twist_memory: 0.1,
+            soles_on_ground: true,
+        }
+    }
+}
+
+impl IkOptions {
+    /// Options for positions of this very body: the rest directions are its own.
+    pub fn for_joints_of(body: &BodyRest) -> Self {
+        Self {
+            rest_directions: Some(Joint::ALL.map(|joint| body.offset(joint).normalize_or_zero())),
+            ..Self::default()
+        }
+    }
+}
+
+/// A motion found from positions, and how well it meets them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IkSolution {
+    /// The motion on the body's joints.
+    pub motion: Motion,
+    /// Distances of the solved skeleton's joints (the clip's bone lengths, the solved rotations)
+    /// from the positions, in centimetres of the body.
+    pub fit: FitError,
+    /// From the positions' unit to the body's metres, by the length of the legs.
+    pub scale: f32,
+}
+
+/// Finds the body's rotations from joint positions.
+///
+/// KIT's joints are brought to SMPL's first. The result does not depend on threads; the cost is a
+/// few microseconds a frame.
+///
+/// # Errors
+/// [`Error::NoBone`] for a bone that has no length in most frames; [`Error::NotFinite`] when sums
+/// of huge numbers overflow.
+pub fn solve(
+    positions: &JointPositions,
+    body: &BodyRest,
+    options: &IkOptions,
+) -> Result<IkSolution, Error> {
+    let directions = options
+        .rest_directions
+        .unwrap_or_else(|| positions.skeleton().smpl_rest_directions());
+    let positions = positions.to_smpl_joints()?;
+    let bones = SourceBones::measure(&positions, &directions)?;
+    let frames = positions.positions().as_chunks::<{ Joint::COUNT }>().0;
+
+    let mut poses: Vec<SolvedPose> = frames
+        .iter()
+        .map(|p| SolvedPose::trunk(&bones, p))
+        .collect();
+    for limb in &LIMBS {
+        let says = poses.iter().zip(frames);
+        let mut twists: Vec<_> = says.map(|(pose, p)| limb.twist(&bones, pose, p)).collect();
+        let frames_remembered = options.twist_memory * positions.frame_rate().per_second() as f32;
+        twist::steady(&mut twists, frames_remembered);
+        for ((pose, p), twist) in poses.iter_mut().zip(frames).zip(&twists) {
+            limb.place(&bones, pose, p, twist.angle());
+        }
+    }
+
+    let scale = body.leg_length() / bones.leg_length();
+    let mut gatherer = FitErrorGatherer::default();
+    for (pose, p) in poses.iter().zip(frames) {
+        for joint in &Joint::ALL[1..] {
+            let index = joint.index();
+            gatherer.add(*joint, scale * pose.positions[index].distance(p[index]));
+        }
+    }
+    let mut roots: Vec<Vec3> = frames
+        .iter()
+        .map(|p| p[0] * scale - body.joints[0])
+        .collect();
+    if options.soles_on_ground {
+        let lowest = lowest_sole(&poses, &roots, body);
+        for root in &mut roots {
+            root.y -= lowest;
+        }
+    }
+    let rotations = poses.iter().flat_map(SolvedPose::local_rotations).collect();
+    Ok(IkSolution {
+        motion: Motion::new(positions.frame_rate(), None, roots, rotations)?,
+        fit: gatherer.finish(),
+        scale,
+    })
+}
+
+/// Height of the lowest sole of all frames when the body moves so.
+fn lowest_sole(poses: &[SolvedPose], roots: &[Vec3], body: &BodyRest) -> f32 {
+    let legs = [
+        [
+            Joint::LeftHip,
+            Joint::LeftKnee,
+            Joint::LeftAnkle,
+            Joint::LeftFoot,
+        ],
+        [
+            Joint::RightHip,
+            Joint::RightKnee,
+            Joint::RightAnkle,
+            Joint::RightFoot,
+        ],
+    ];
+    let mut lowest = f32::INFINITY;
+    for (pose, root) in poses.iter().zip(roots) {
+        for leg in legs {
+            let (mut position, mut above) = (*root + body.joints[0], pose.world[0]);
+            for joint in leg {
+                position += above * body.offset(joint);
+                above = pose.world[joint.index()];
+                if matches!(
+                    joint,
+                    Joint::LeftAnkle | Joint::RightAnkle | Joint::LeftFoot | Joint::RightFoot
+                ) {
+                    lowest = lowest.min(position.y - body.height(joint));
+                }
+            }
+        }
+    }
+    lowest
+}
