@@ -18,6 +18,17 @@ pub enum Error {
         /// What the file holds.
         found: String,
     },
+    /// The bytes of a body file cannot be read.
+    #[error(transparent)]
+    File(#[from] physique_files::FileError),
+    /// A body file is broken, or holds more than data.
+    #[error("Body file {file}: {source}")]
+    Content {
+        /// The file's name.
+        file: String,
+        /// What is wrong with it.
+        source: physique_files::Error,
+    },
     /// Arrays that do not fit together.
     #[error("Body model: {what} must be {expected}, found {found}.")]
     Model {

@@ -27,7 +27,9 @@ pub mod joint_regressor;
 pub mod model;
 pub mod open_body;
 pub mod pose;
+pub mod read;
 mod skinning;
+pub mod smpl;
 
 pub use attributes::{AttributeMap, Attributes, Sex};
 pub use blend_weights::BlendWeights;
@@ -38,3 +40,5 @@ pub use joint_regressor::JointRegressor;
 pub use model::{BodyArrays, BodyModel};
 pub use open_body::{open_body, open_body_low};
 pub use pose::Pose;
+pub use read::{BodyOptions, parse_body, read_body};
+pub use smpl::JointSet;
