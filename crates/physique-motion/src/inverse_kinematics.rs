@@ -37,7 +37,8 @@ pub struct IkOptions {
     /// Unit vectors from the parent to each joint of the **positions'** skeleton at rest, facing
     /// +Z; otherwise those of the data set's body (SMPL-H for HumanML3D and for KIT).
     ///
-    /// Bone lengths are always taken from the clip.
+    /// Bone lengths, and the angles between the bones of pelvis and chest, are always taken from
+    /// the clip.
     pub rest_directions: Option<[Vec3; Joint::COUNT]>,
     /// How long a straight limb remembers its twist, in seconds.
     pub twist_memory: f32,
@@ -81,8 +82,12 @@ pub struct IkSolution {
 
 /// Finds the body's rotations from joint positions.
 ///
-/// KIT's joints are brought to SMPL's first. The result does not depend on threads; the cost is a
-/// few microseconds a frame.
+/// KIT's joints are brought to SMPL's first. Runs on one thread at some 10 microseconds a frame.
+///
+/// On positions of the body itself the fit is exact to rounding (some micrometres). Of the
+/// rotations, pelvis and chest are exact too; thighs and shins come within some degrees, upper arms
+/// within the angle by which the source's elbows are no hinges; head, forearm and hand twists are
+/// unknown.
 ///
 /// # Errors
 /// [`Error::NoBone`] for a bone that has no length in most frames; [`Error::NotFinite`] when sums

@@ -8,11 +8,14 @@
 use std::path::{Path, PathBuf};
 
 use glam::{DMat3, Vec3};
+use physique_body::{Body, open_body};
 use physique_motion::FrameRate;
 use physique_motion::features::{
     BoneRotations, FeatureLayout, FeatureSkeleton, Heading, JointPositions, MotionFeatures,
     RotationLayer, extract, recover_from_positions, recover_from_rotations,
 };
+use physique_motion::inverse_kinematics::{IkOptions, solve};
+use physique_motion::mapping::BodyRest;
 use physique_motion::npz::{Archive, ArrayLimits};
 
 const METRES: f32 = 1e-5;
@@ -378,4 +381,28 @@ fn row_major(matrix: &DMat3) -> [f32; 9] {
         .transpose()
         .to_cols_array()
         .map(|number| number as f32)
+}
+
+#[test]
+fn inverse_kinematics_meets_published_clips() {
+    let body = Body::new(open_body().unwrap(), &[]).unwrap();
+    for (file, skeleton, mean_cm, max_cm) in [
+        ("hml_012314.npz", FeatureSkeleton::HumanMl3d, 0.01, 0.02),
+        ("kit_03950.npz", FeatureSkeleton::Kit, 0.2, 2.0),
+    ] {
+        let Some(mut golden) = Golden::recorded(file) else {
+            return;
+        };
+        let positions = recover_from_positions(&golden.features("vec", skeleton)).unwrap();
+        let options = IkOptions::default();
+        let fit = solve(&positions, &BodyRest::from(&body), &options)
+            .unwrap()
+            .fit
+            .all;
+        println!("{file}: {fit:?}");
+        assert!(
+            fit.mean_cm < mean_cm && fit.max_cm < max_cm,
+            "{file}: {fit:?}"
+        );
+    }
 }

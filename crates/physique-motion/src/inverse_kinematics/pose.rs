@@ -11,6 +11,11 @@ use super::{
     source_bones::SourceBones,
 };
 
+/// Ends of the bones that the pelvis carries.
+pub(super) const PELVIS_BONES: [Joint; 3] = [LeftHip, RightHip, Spine1];
+/// Ends of the bones that the chest carries.
+pub(super) const CHEST_BONES: [Joint; 3] = [Neck, LeftCollar, RightCollar];
+
 /// World rotations and positions of all joints.
 pub(super) struct SolvedPose {
     pub(super) world: [Quat; Joint::COUNT],
@@ -25,18 +30,11 @@ impl SolvedPose {
             positions: [wanted[Pelvis.index()]; Joint::COUNT],
         };
         let at = |joint: Joint| wanted[joint.index()];
-        let pelvis = pose.fit(
-            bones,
-            wanted,
-            Pelvis,
-            [LeftHip, RightHip, Spine1],
-            upright(wanted),
-        );
+        let pelvis = pose.fit(bones, wanted, Pelvis, PELVIS_BONES, upright(wanted));
         // Where the chest will be, up to what the spine below it lacks in length.
-        let chest_bones = [Neck, LeftCollar, RightCollar];
-        let pairs = chest_bones.map(|end| (bones.offset(end), at(end) - at(Spine3)));
+        let pairs = CHEST_BONES.map(|end| (bones.offset(end), at(end) - at(Spine3)));
         let chest = best_rotation(&pairs, pelvis);
-        for joint in [LeftHip, RightHip, Spine1] {
+        for joint in PELVIS_BONES {
             pose.put(bones, joint);
         }
         for (joint, next, share) in [(Spine1, Spine2, 1.0 / 3.0), (Spine2, Spine3, 2.0 / 3.0)] {
@@ -45,8 +43,8 @@ impl SolvedPose {
             pose.world[joint.index()] = aim(between, bones.offset(next), bone);
             pose.put(bones, next);
         }
-        let chest = pose.fit(bones, wanted, Spine3, chest_bones, chest);
-        for joint in chest_bones {
+        let chest = pose.fit(bones, wanted, Spine3, CHEST_BONES, chest);
+        for joint in CHEST_BONES {
             pose.put(bones, joint);
         }
         for (joint, next) in [
@@ -98,7 +96,7 @@ impl SolvedPose {
 }
 
 /// A rotation of the pelvis to start from: left by the hips, up by the spine.
-fn upright(wanted: &[Vec3; Joint::COUNT]) -> Quat {
+pub(super) fn upright(wanted: &[Vec3]) -> Quat {
     let at = |joint: Joint| wanted[joint.index()];
     let left = (at(LeftHip) - at(RightHip))
         .try_normalize()

@@ -3,9 +3,14 @@
 use glam::Vec3;
 use physique_body::Joint;
 
+use super::{
+    pose::{CHEST_BONES, PELVIS_BONES, upright},
+    rigid::best_rotation,
+};
 use crate::{Error, features::JointPositions};
 
-/// From the parent to each joint at rest: directions given, lengths measured.
+/// From the parent to each joint at rest: directions given, lengths measured; the three bones of
+/// pelvis and chest are measured as a whole.
 pub(super) struct SourceBones {
     offsets: [Vec3; Joint::COUNT],
 }
@@ -36,7 +41,30 @@ impl SourceBones {
             }
             offsets[joint.index()] = directions[joint.index()] * median;
         }
-        Ok(Self { offsets })
+        let mut bones = Self { offsets };
+        bones.adapt_to(positions);
+        Ok(bones)
+    }
+
+    /// Gives the bones of pelvis and chest the angles between them that they have in the clip: hip
+    /// joints sit deeper in one body model than in another. The rotation that fits the directions
+    /// at rest best stays the rotation, so that nothing but shape is learnt.
+    fn adapt_to(&mut self, positions: &JointPositions) {
+        for (joint, ends) in [(Joint::Pelvis, PELVIS_BONES), (Joint::Spine3, CHEST_BONES)] {
+            let mut sums = [Vec3::ZERO; 3];
+            for p in positions.frames() {
+                let now = ends.map(|end| p[end.index()] - p[joint.index()]);
+                let pairs = [0, 1, 2].map(|bone| (self.offset(ends[bone]), now[bone]));
+                let joint_from_world = best_rotation(&pairs, upright(p)).inverse();
+                for (sum, now) in sums.iter_mut().zip(now) {
+                    *sum += joint_from_world * now;
+                }
+            }
+            for (end, sum) in ends.into_iter().zip(sums) {
+                let length = self.offset(end).length();
+                self.offsets[end.index()] = sum.normalize_or(self.offset(end) / length) * length;
+            }
+        }
     }
 
     /// From its parent to a joint at rest.
