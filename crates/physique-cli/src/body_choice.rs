@@ -3,17 +3,17 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use anyhow::{Context, Result, bail};
+use anyhow::Result;
 use clap::{Args, ValueEnum};
-use physique::body::{Attributes, Body, BodyModel, Sex, compact, open_body, open_body_low};
-
-/// No compact body file is larger.
-const LARGEST_BODY_FILE: u64 = 64 << 20;
+use physique::body::{
+    Attributes, Body, BodyModel, BodyOptions, JointSet, Sex, open_body, open_body_low, read_body,
+};
 
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Body")]
 pub(crate) struct BodyArguments {
-    /// Body model: `open`, `open-low`, or a compact body file.
+    /// Body model: `open`, `open-low`, or a file: SMPL, SMPL-H or SMPL-X as .npz or .pkl, or a
+    /// compact body.
     #[arg(long, value_name = "FILE", default_value = "open")]
     pub(crate) body: String,
     /// Sex of the mean body.
@@ -48,6 +48,10 @@ impl BodyArguments {
         if let Some(betas) = &self.betas {
             return Ok(Body::new(model, betas)?);
         }
+        // Licensed models have a mean body, but do not know how people map to betas.
+        if model.attributes().is_none() && self.describes_nobody() {
+            return Ok(Body::new(model, &[])?);
+        }
         let person = Attributes {
             sex: match self.sex {
                 Some(SexName::Female) => Sex::Female,
@@ -65,19 +69,18 @@ impl BodyArguments {
         match self.body.as_str() {
             "open" => Ok(open_body()?),
             "open-low" => Ok(open_body_low()?),
-            file => read_body(Path::new(file)),
+            file => {
+                // Motions have no hands and faces: fingers, jaw and eyes stay at rest.
+                let options = BodyOptions {
+                    joints: JointSet::Body22,
+                    ..BodyOptions::default()
+                };
+                Ok(Arc::new(read_body(Path::new(file), &options)?))
+            }
         }
     }
-}
 
-fn read_body(path: &Path) -> Result<Arc<BodyModel>> {
-    let shown = path.display();
-    let size = std::fs::metadata(path)
-        .with_context(|| format!("body {shown}"))?
-        .len();
-    if size > LARGEST_BODY_FILE {
-        bail!("body {shown}: {size} bytes, above the limit of {LARGEST_BODY_FILE}");
+    const fn describes_nobody(&self) -> bool {
+        self.sex.is_none() && self.stature.is_none() && self.mass.is_none() && self.age.is_none()
     }
-    let bytes = std::fs::read(path).with_context(|| format!("body {shown}"))?;
-    Ok(Arc::new(compact::read(&shown.to_string(), &bytes)?))
 }
