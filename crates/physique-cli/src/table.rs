@@ -23,6 +23,11 @@ pub(crate) fn table(report: &Report, worst: Option<usize>) -> String {
             "at\ns",
             "frames above\n50 cm³, %",
             "creases\nmean, cm³",
+            "in ground\nmean, cm",
+            "floating\nmean, cm",
+            "sliding\ncm/s",
+            "balanced\n%",
+            "jerk\nm/s³",
         ],
         Protocol::Sia => &["SI mean\ncm³ of the ball", "SI\n% of volume"],
     };
@@ -116,8 +121,27 @@ fn native(score: &MotionScore, row: &mut Vec<Cell>) {
         Cell::new(format!("{:.2}", found.worst_s)),
         Cell::new(format!("{:.0}", found.frames_above_50_cm3_percent)),
         Cell::new(format!("{:.0}", found.crease_mean_cm3)),
-        Cell::new(pair),
     ]);
+    row.extend(physics(score));
+    row.push(Cell::new(pair));
+}
+
+/// Ground, feet, balance and smoothness; a dash for what the clip does not have.
+fn physics(score: &MotionScore) -> [Cell; 5] {
+    let found = score.physics.as_ref();
+    let balance = found.and_then(|found| found.balance.as_ref());
+    let smoothness = found.and_then(|found| found.smoothness.as_ref());
+    let cell = |value: Option<f64>, digits| match value {
+        Some(value) => Cell::new(format!("{value:.digits$}")),
+        None => Cell::new("–"),
+    };
+    [
+        cell(found.map(|found| found.ground.penetration_mean_cm), 1),
+        cell(found.map(|found| found.ground.floating_mean_cm), 1),
+        cell(found.map(|found| found.feet.slide_mean_cm_s), 1),
+        cell(balance.map(|balance| balance.stable_percent), 0),
+        cell(smoothness.map(|smoothness| smoothness.jerk_mean_m_s3), 0),
+    ]
 }
 
 fn sia(score: &MotionScore, row: &mut Vec<Cell>) {

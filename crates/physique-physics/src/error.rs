@@ -10,9 +10,9 @@ pub enum Error {
     /// A body or pose that does not work.
     #[error(transparent)]
     Body(#[from] physique_body::Error),
-    /// A motion that does not work.
+    /// A motion that does not work; boxed, because it is the largest.
     #[error(transparent)]
-    Motion(#[from] physique_motion::Error),
+    Motion(Box<physique_motion::Error>),
     /// An option outside its range.
     #[error("Physics option `{option}`: expected {expected}, found {found}.")]
     Option {
@@ -55,4 +55,10 @@ pub enum Error {
     /// A motion without frames has no measures.
     #[error("The motion has no frames: there is nothing to measure.")]
     NoFrames,
+}
+
+impl From<physique_motion::Error> for Error {
+    fn from(error: physique_motion::Error) -> Self {
+        Self::Motion(Box::new(error))
+    }
 }

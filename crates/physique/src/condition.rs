@@ -135,6 +135,7 @@ mod tests {
             frame_rate_fps: 30.0,
             duration_s,
             self_intersection: None,
+            physics: None,
             sia: None,
         }
     }

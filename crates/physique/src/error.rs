@@ -13,6 +13,9 @@ pub enum Error {
     /// A surface that cannot be measured.
     #[error(transparent)]
     Geometry(#[from] physique_geometry::Error),
+    /// A body or motion whose physics cannot be measured; boxed, because it wraps the floors below.
+    #[error(transparent)]
+    Physics(Box<physique_physics::Error>),
     /// A motion without frames has no score.
     #[error("The motion has no frames: there is nothing to score.")]
     NoFrames,
@@ -27,4 +30,10 @@ pub enum Error {
         /// What is wrong with it.
         found: String,
     },
+}
+
+impl From<physique_physics::Error> for Error {
+    fn from(error: physique_physics::Error) -> Self {
+        Self::Physics(Box::new(error))
+    }
 }

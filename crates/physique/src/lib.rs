@@ -1,6 +1,7 @@
 //! Physique scores human motion for what a body could really perform.
 //!
-//! This is the face: the floors below are re-exported as [`body`], [`motion`] and [`geometry`].
+//! This is the face: the floors below are re-exported as [`body`], [`motion`], [`geometry`]
+//! and [`physics`].
 //!
 //! ```
 //! use physique::body::{Body, Joint, Sex, open_body};
@@ -24,6 +25,7 @@ pub mod condition;
 pub mod error;
 mod frames;
 pub mod load;
+pub mod physics_score;
 pub mod report;
 pub mod score;
 pub mod self_intersection;
@@ -32,8 +34,10 @@ pub mod sia;
 pub use physique_body as body;
 pub use physique_geometry as geometry;
 pub use physique_motion as motion;
+pub use physique_physics as physics;
 
 pub use condition::Condition;
 pub use error::Error;
+pub use physics_score::PhysicsScore;
 pub use report::{MotionReport, Report};
 pub use score::{MotionScore, Protocol, ScoreOptions, Scorer, score};

@@ -116,6 +116,9 @@ pub fn measures(score: &MotionScore) -> Vec<(&'static str, f64)> {
             ("crease_mean_cm3", found.crease_mean_cm3),
         ]);
     }
+    if let Some(found) = &score.physics {
+        measures.extend(found.measures());
+    }
     if let Some(found) = &score.sia {
         measures.extend([
             ("sia_self_intersection_cm3", found.self_intersection_cm3),
@@ -142,6 +145,19 @@ pub fn measure_names(protocol: Protocol) -> &'static [&'static str] {
             "self_intersection_worst_s",
             "self_intersection_frames_above_50_cm3_percent",
             "crease_mean_cm3",
+            "ground_penetration_mean_cm",
+            "ground_penetration_worst_cm",
+            "ground_floating_mean_cm",
+            "ground_unsupported_percent",
+            "ground_flight_percent",
+            "feet_slide_mean_cm_s",
+            "feet_slide_frames_percent",
+            "balance_stable_percent",
+            "balance_outside_mean_cm",
+            "balance_margin_mean_cm",
+            "smoothness_acceleration_mean_m_s2",
+            "smoothness_jerk_mean_m_s3",
+            "smoothness_jitter_mean_mm",
         ],
         Protocol::Sia => &[
             "frames",

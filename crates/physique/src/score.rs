@@ -3,11 +3,13 @@
 use physique_body::Body;
 use physique_geometry::ScanOptions;
 use physique_motion::Motion;
+use physique_physics::{Physics, PhysicsOptions};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::Error;
 use crate::frames::measure_frames;
+use crate::physics_score::PhysicsScore;
 use crate::self_intersection::{FrameIntersections, FrameMeter, SelfIntersection, Surface};
 use crate::sia::{SiaMeter, SiaScore};
 
@@ -51,6 +53,8 @@ pub struct MotionScore {
     pub duration_s: f64,
     /// How much the body passes through itself.
     pub self_intersection: Option<SelfIntersection>,
+    /// Ground, feet, balance and smoothness.
+    pub physics: Option<PhysicsScore>,
     /// The published voxel metric.
     pub sia: Option<SiaScore>,
 }
@@ -70,6 +74,8 @@ pub struct Scorer {
     body: Body,
     options: ScoreOptions,
     surface: Surface,
+    /// For the native protocol only.
+    physics: Option<Physics>,
 }
 
 impl Scorer {
@@ -79,10 +85,15 @@ impl Scorer {
     /// [`Error::Geometry`] for a surface that is not closed or a spacing that is not a length.
     pub fn new(body: Body, options: ScoreOptions) -> Result<Self, Error> {
         let surface = Surface::new(&body)?;
+        let physics = match options.protocol {
+            Protocol::Native => Some(Physics::new(&body)?),
+            Protocol::Sia => None,
+        };
         let scorer = Self {
             body,
             options,
             surface,
+            physics,
         };
         scorer.meter()?;
         Ok(scorer)
@@ -121,6 +132,7 @@ impl Scorer {
             frame_rate_fps: motion.frame_rate().per_second(),
             duration_s: motion.seconds(),
             self_intersection: None,
+            physics: None,
             sia: None,
         };
         match self.options.protocol {
@@ -133,6 +145,10 @@ impl Scorer {
                     self.body.volume() * 1e6,
                 );
                 score.self_intersection = Some(measured.ok_or(Error::NoFrames)?);
+                if let Some(physics) = &self.physics {
+                    let found = physics.measure(motion, &PhysicsOptions::default())?;
+                    score.physics = Some(PhysicsScore::from(&found));
+                }
             }
             Protocol::Sia => {
                 let frames = measure_frames(

@@ -112,7 +112,7 @@ fn pairs_add_up_to_the_whole() {
 }
 
 #[test]
-fn where_a_body_is_and_faces_changes_nothing() {
+fn where_a_body_is_and_faces_does_not_change_its_self_intersection() {
     let scorer = scorer(Protocol::Native);
     let here = dance(&scorer);
     let turn = Quat::from_euler(glam::EulerRot::YXZ, 2.0, 0.3, -0.5);
@@ -125,7 +125,8 @@ fn where_a_body_is_and_faces_changes_nothing() {
         .iter()
         .map(|t| *t + Vec3::new(40.0, -3.0, 7.0));
     let there = Motion::new(here.frame_rate(), None, elsewhere.collect(), rotations).unwrap();
-    assert_eq!(scorer.score(&here).unwrap(), scorer.score(&there).unwrap());
+    let self_intersection = |motion| scorer.score(motion).unwrap().self_intersection;
+    assert_eq!(self_intersection(&here), self_intersection(&there));
 }
 
 #[test]
@@ -210,4 +211,24 @@ fn nothing_is_never_a_good_score() {
         let outcome = scorer(protocol).score(&motion_of(&[]));
         assert!(matches!(outcome, Err(Error::NoFrames)));
     }
+}
+
+#[test]
+fn a_sunken_motion_scores_its_depth_and_loses_nothing_else() {
+    let scorer = scorer(Protocol::Native);
+    let here = dance(&scorer);
+    let sunk = here.root_translation().iter().map(|t| *t - Vec3::Y * 0.5);
+    let sunk = Motion::new(
+        here.frame_rate(),
+        None,
+        sunk.collect(),
+        here.rotations().to_vec(),
+    )
+    .unwrap();
+    let physics = |motion| scorer.score(motion).unwrap().physics.unwrap();
+    let (here, sunk) = (physics(&here), physics(&sunk));
+    assert!(here.ground.penetration_mean_cm < 1.0);
+    assert!(sunk.ground.penetration_mean_cm > 45.0);
+    let jerk = |score: &physique::PhysicsScore| score.smoothness.as_ref().unwrap().jerk_mean_m_s3;
+    assert!((jerk(&here) - jerk(&sunk)).abs() < 1e-3 * jerk(&here));
 }
