@@ -37,7 +37,7 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<BodyModel, Error> {
     };
     let archive = Archive::open(bytes.to_vec(), limits).map_err(|error| Error::Content {
         file: name.into(),
-        source: error.into(),
+        problem: error.into(),
     })?;
     from_archive(name, archive)
 }
@@ -138,10 +138,10 @@ impl File<'_> {
         }
     }
 
-    fn content(&self, source: physique_files::Error) -> Error {
+    fn content(&self, problem: physique_files::Error) -> Error {
         Error::Content {
             file: self.name.into(),
-            source,
+            problem,
         }
     }
 

@@ -22,12 +22,12 @@ pub enum Error {
     #[error(transparent)]
     File(#[from] physique_files::FileError),
     /// A body file is broken, or holds more than data.
-    #[error("Body file {file}: {source}")]
+    #[error("Body file {file}: {problem}")]
     Content {
         /// The file's name.
         file: String,
         /// What is wrong with it.
-        source: physique_files::Error,
+        problem: physique_files::Error,
     },
     /// Arrays that do not fit together.
     #[error("Body model: {what} must be {expected}, found {found}.")]

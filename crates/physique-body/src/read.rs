@@ -43,9 +43,9 @@ pub fn read_body(path: &Path, options: &BodyOptions) -> Result<BodyModel, Error>
 /// arrays that are missing or of the wrong shape, [`Error::Model`] for arrays that do not fit
 /// together.
 pub fn parse_body(name: &str, bytes: Vec<u8>, options: &BodyOptions) -> Result<BodyModel, Error> {
-    let content = |source| Error::Content {
+    let content = |problem| Error::Content {
         file: name.into(),
-        source,
+        problem,
     };
     let pickles = PickleLimits {
         bytes: options.bytes,

@@ -30,6 +30,8 @@ mod source;
 pub use joint_set::JointSet;
 pub(crate) use source::Source;
 
+use std::path::Path;
+
 use glam::Vec3;
 
 use crate::model::BodyArrays;
@@ -39,7 +41,7 @@ use arrays::SmplArrays;
 /// Joints of SMPL-X: its shape directions end with those of facial expression.
 const SMPL_X_JOINTS: usize = 55;
 
-/// Makes the model of a file; `name` is used in reports and errors.
+/// Makes the model of a file; `name` is used in errors, and without folder and ending in reports.
 pub(crate) fn read(name: &str, source: Source, joints: JointSet) -> Result<BodyModel, Error> {
     let arrays = SmplArrays::read(name, source)?;
     let file_joints = arrays.parents.len();
@@ -58,8 +60,10 @@ pub(crate) fn read(name: &str, source: Source, joints: JointSet) -> Result<BodyM
         all => all,
     };
     let shape = &arrays.shape_directions;
+    // Reports name the model, not where it lies.
+    let stem = Path::new(name).file_stem();
     BodyModel::new(BodyArrays {
-        name: name.into(),
+        name: stem.map_or_else(|| name.into(), |stem| stem.to_string_lossy().into_owned()),
         template: vectors(&arrays.template.values),
         shape_directions: by_last_index(&shape.values, shape.shape[2], betas),
         pose_directions,

@@ -59,6 +59,7 @@ fn vector(of: impl Fn(f32) -> f32) -> Vec3 {
 fn every_layout_reads_as_it_was_made() {
     for (name, joints, betas, pose_directions) in FILES {
         let model = read(name, JointSet::File);
+        assert_eq!(Some(model.name()), name.split('.').next(), "the stem");
         assert_eq!(model.joint_count(), joints, "{name}");
         assert_eq!(model.beta_count(), betas, "{name}");
         assert_eq!(model.vertex_count(), VERTICES, "{name}");
@@ -195,4 +196,44 @@ fn no_truncation_panics() {
             );
         }
     }
+}
+
+/// Broken copies must be refused or read, and nothing else; the seed is fixed.
+#[test]
+fn no_mutation_panics() {
+    let mut state = 7_u64;
+    let mut random = |limit: usize| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (state >> 33) as usize % limit
+    };
+    let (mut read, mut refused) = (0, 0);
+    for (name, ..) in FILES {
+        let original = fs::read(path(name)).unwrap();
+        for _ in 0..300 {
+            let mut bytes = original.clone();
+            for _ in 0..=random(4) {
+                let reach = if random(2) == 0 { 600 } else { bytes.len() };
+                let at = random(reach.min(bytes.len()));
+                bytes[at] = match random(3) {
+                    0 => bytes[at] ^ (1 << random(8)),
+                    1 => [0, 1, 0x7f, 0x80, 0xff][random(5)],
+                    _ => random(256) as u8,
+                };
+            }
+            let options = BodyOptions {
+                joints: JointSet::Body22,
+                bytes: 1 << 24,
+            };
+            match parse_body(name, bytes, &options) {
+                Ok(_) => read += 1,
+                Err(_) => refused += 1,
+            }
+        }
+    }
+    assert!(
+        read > 100 && refused > 100,
+        "{read} read, {refused} refused"
+    );
 }

@@ -27,9 +27,9 @@ pub(super) struct SmplArrays {
 
 impl SmplArrays {
     pub(super) fn read(file: &str, mut source: Source) -> Result<Self, Error> {
-        let content = |source| Error::Content {
+        let content = |problem| Error::Content {
             file: file.into(),
-            source,
+            problem,
         };
         let shaped = |dense: Dense, key: &str, expected: &[Option<usize>]| {
             check_shape(file, key, &dense.shape, expected).map(|()| dense)
