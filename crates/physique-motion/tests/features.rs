@@ -154,7 +154,9 @@ proptest! {
         let elsewhere = moved(&motion, |joint| turn * joint + Vec3::new(x, y, z));
         let (here, there) = (extract(&motion).unwrap(), extract(&elsewhere).unwrap());
         let difference = largest_difference(here.values(), there.values());
-        prop_assert!(difference < 3e-5, "{difference}");
+        // Coordinates of some metres are rounded to a quarter of a micrometre, which turns bones of
+        // some centimetres by 1e-5, those nearly opposite to their rest direction by more.
+        prop_assert!(difference < 1e-4, "{difference}");
     }
 
     #[test]

@@ -14,13 +14,13 @@ use proptest::prelude::*;
 
 mod support;
 
-/// Positions a third of a metre around the standing figure's, exactly representable after a step of
-/// [`STEP`].
+/// Positions up to an eighth of a metre around the standing figure's, exactly representable
+/// after a step of [`STEP`].
 fn joints() -> impl Strategy<Value = [Vec3; 22]> {
     prop::collection::vec(-64_i8..=64, 66).prop_map(|numbers| {
         let figure = support::figure().joints;
         std::array::from_fn(|joint| {
-            let near = |axis: usize| f32::from(numbers[3 * joint + axis]) / 256.0;
+            let near = |axis: usize| f32::from(numbers[3 * joint + axis]) / 512.0;
             let grid = (figure[joint] * 256.0).round() / 256.0;
             grid + Vec3::new(near(0), near(1), near(2))
         })

@@ -4,7 +4,7 @@
 
 use glam::{Quat, Vec3};
 use physique_body::{Body, Joint, open_body};
-use physique_motion::features::{FeatureSkeleton, JointPositions};
+use physique_motion::features::{FeatureSkeleton, JointPositions, extract};
 use physique_motion::inverse_kinematics::{IkOptions, IkSolution, solve};
 use physique_motion::mapping::BodyRest;
 use physique_motion::{Error, FrameRate, Motion, embedded};
@@ -202,6 +202,16 @@ fn bodies_without_bones_are_refused_and_collapsed_frames_survive() {
     let rate = FrameRate::new(20.0).unwrap();
     let nowhere = vec![Vec3::ONE; 22 * 3];
     let nowhere = JointPositions::new(rate, FeatureSkeleton::HumanMl3d, nowhere).unwrap();
+    // Numbers so large that their squares overflow are an error or a motion, never a panic.
+    let huge = positions_of(&support::walk(3), &body);
+    let huge = huge.positions().iter().map(|&p| p * 1e30).collect();
+    let huge = JointPositions::new(rate, FeatureSkeleton::HumanMl3d, huge).unwrap();
+    assert!(matches!(
+        solve(&huge, &body, &IkOptions::default()),
+        Err(Error::NotFinite { .. })
+    ));
+    assert!(extract(&huge).is_err());
+
     assert!(matches!(
         solve(&nowhere, &body, &IkOptions::default()),
         Err(Error::NoBone { .. })

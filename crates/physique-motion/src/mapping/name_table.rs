@@ -70,7 +70,7 @@ impl NameTable {
     ///
     /// # Errors
     /// [`Error::Format`] for anything but `key = "name"` or `key = ["name", ...]` with the keys
-    /// of the [module](self).
+    /// of the table above.
     pub fn parse(text: &str, path: &Path) -> Result<Self, Error> {
         let error = |place: &str, expected: &str, found: String| Error::Format {
             path: path.into(),
