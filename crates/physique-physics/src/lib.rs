@@ -2,6 +2,17 @@
 //!
 //! Floor 3 of Physique: it knows bodies and motions, not files and not learning. Metres, seconds,
 //! kilograms, radians; right-handed, **Y up**; places on the ground are `(x, z)`.
+//!
+//! * [`Physics`]: a body prepared once; [`Physics::measure`] gives [`PhysicsMeasures`] of a motion,
+//!   in metres and seconds, with every frame.
+//! * [`protocol`]: ten published sets of metrics, each by its own definition.
+//! * [`loss`]: the same as losses with gradients to pose, root and shape.
+//! * [`MassPoints`] and [`MassMoments`]: where the mass is, and exact sums over it.
+//! * [`balance`], [`hull`], [`time_filter`]: zero moment point, base of support, derivatives of a
+//!   stated bandwidth, usable alone.
+//!
+//! What is not known is not judged: frames in flight, without support, or too near to the ends of
+//! a clip for derivatives are counted, never called stable or unstable.
 
 mod ground;
 mod interior;

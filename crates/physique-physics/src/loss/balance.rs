@@ -109,3 +109,32 @@ pub(crate) fn softplus(x: f64) -> (f64, f64) {
         1.0 / (1.0 + (-x).exp()),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_smooth_distance_is_near_the_golden_one_over_64_directions() {
+        let golden: serde_json::Value =
+            serde_json::from_str(include_str!("../../tests/fixtures/physics.json")).unwrap();
+        let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+        let number = |value: &serde_json::Value| value.as_f64().unwrap();
+        for case in golden["bos_support_K64"].as_array().unwrap() {
+            let point = DVec2::new(number(&case["p"][0]), number(&case["p"][1]));
+            let (found, normal) = signed_distance(point, &square, &[1.0; 4]).unwrap();
+            // The golden support is sharp; two corners that share an edge push a smooth one out.
+            let pushed_out = 2.0_f64.ln() / SHARPNESS;
+            let expected = number(&case["d"]);
+            assert!(found <= expected + 1e-12 && found >= expected - 1.001 * pushed_out);
+            assert!((normal.length() - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn softplus_never_overflows() {
+        assert_eq!(softplus(1e6), (1e6, 1.0));
+        assert_eq!(softplus(-1e6), (0.0, 0.0));
+        assert!((softplus(0.0).0 - 2.0_f64.ln()).abs() < 1e-15);
+    }
+}
