@@ -30,6 +30,7 @@ pub mod pose;
 pub mod read;
 mod skinning;
 pub mod smpl;
+pub mod surface;
 
 pub use attributes::{AttributeMap, Attributes, Sex};
 pub use blend_weights::BlendWeights;
@@ -42,3 +43,4 @@ pub use open_body::{open_body, open_body_low};
 pub use pose::Pose;
 pub use read::{BodyOptions, parse_body, read_body};
 pub use smpl::JointSet;
+pub use surface::Surface;

@@ -5,7 +5,7 @@ use std::fmt;
 use glam::Vec3;
 
 use crate::skinning::SkinningPlan;
-use crate::{AttributeMap, BlendWeights, Error, Joint, JointRegressor};
+use crate::{AttributeMap, BlendWeights, Error, Joint, JointRegressor, Surface};
 
 /// The arrays of a body model, as a file gives them.
 #[derive(Clone, Debug)]
@@ -127,6 +127,11 @@ impl BodyModel {
     /// Triangles, counter-clockwise seen from outside.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.arrays.triangles
+    }
+
+    /// Whether the mesh is closed and in one part. Computed anew by every call.
+    pub fn surface(&self) -> Surface {
+        Surface::of(&self.arrays.triangles)
     }
 
     /// Parent of each joint.

@@ -14,10 +14,10 @@
 //! they are unfolded as data, see [`physique_files::pickle`]. All other arrays (hands' components,
 //! landmarks, texture coordinates) are passed over unread.
 //!
-//! **Closed or not.** SMPL and SMPL-H are one closed surface. SMPL-X has three: the body and two
-//! eyeballs within the head. A score of self-intersection counts what is covered more than once:
-//! eyeballs count as part of the head, and what they cover of it counts as the head within
-//! itself. Measure such a body against its own rest pose.
+//! **Closed or not.** Volume, mass and scores of self-intersection ask for one closed surface. A
+//! file's mesh is taken as it is; [`BodyModel::surface`] tells how many edges are open and how
+//! many parts there are. SMPL-X carries eyeballs within the head: a score counts what they cover
+//! as the head within itself, in every frame. Compare such a body with its own rest pose.
 //!
 //! Source: Loper et al., "SMPL: A Skinned Multi-Person Linear Model", 2015, and the layouts of the
 //! public loaders.

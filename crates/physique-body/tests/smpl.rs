@@ -154,6 +154,13 @@ fn body_parts_of_fingers_and_face_are_wrists_and_head() {
 }
 
 #[test]
+fn surfaces_are_closed_or_said_to_be_open() {
+    let open = physique_body::open_body().unwrap().surface();
+    assert_eq!((open.open_edges, open.components), (0, 1));
+    assert!(read("body_22.npz", JointSet::File).surface().open_edges > 0);
+}
+
+#[test]
 fn a_file_that_is_no_body_is_named() {
     let text = refused(b"HIERARCHY\n".to_vec()).to_string();
     assert!(text.contains("HIERARCHY"), "{text}");
