@@ -37,7 +37,7 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<BodyModel, Error> {
     };
     let archive = Archive::open(bytes.to_vec(), limits).map_err(|error| Error::Content {
         file: name.into(),
-        problem: error.into(),
+        problem: Box::new(error.into()),
     })?;
     from_archive(name, archive)
 }
@@ -141,7 +141,7 @@ impl File<'_> {
     fn content(&self, problem: physique_files::Error) -> Error {
         Error::Content {
             file: self.name.into(),
-            problem,
+            problem: Box::new(problem),
         }
     }
 

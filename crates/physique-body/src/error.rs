@@ -27,7 +27,7 @@ pub enum Error {
         /// The file's name.
         file: String,
         /// What is wrong with it.
-        problem: physique_files::Error,
+        problem: Box<physique_files::Error>,
     },
     /// Arrays that do not fit together.
     #[error("Body model: {what} must be {expected}, found {found}.")]

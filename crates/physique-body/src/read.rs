@@ -45,7 +45,7 @@ pub fn read_body(path: &Path, options: &BodyOptions) -> Result<BodyModel, Error>
 pub fn parse_body(name: &str, bytes: Vec<u8>, options: &BodyOptions) -> Result<BodyModel, Error> {
     let content = |problem| Error::Content {
         file: name.into(),
-        problem,
+        problem: Box::new(problem),
     };
     let pickles = PickleLimits {
         bytes: options.bytes,

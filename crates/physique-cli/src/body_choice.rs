@@ -75,7 +75,15 @@ impl BodyArguments {
                     joints: JointSet::Body22,
                     ..BodyOptions::default()
                 };
-                Ok(Arc::new(read_body(Path::new(file), &options)?))
+                let model = read_body(Path::new(file), &options)?;
+                let surface = model.surface();
+                if surface.open_edges > 0 || surface.components > 1 {
+                    eprintln!(
+                        "{file}: the mesh has {} open edges and {} parts; volumes are those of closed surfaces in one part.",
+                        surface.open_edges, surface.components
+                    );
+                }
+                Ok(Arc::new(model))
             }
         }
     }

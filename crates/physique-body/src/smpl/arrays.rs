@@ -29,7 +29,7 @@ impl SmplArrays {
     pub(super) fn read(file: &str, mut source: Source) -> Result<Self, Error> {
         let content = |problem| Error::Content {
             file: file.into(),
-            problem,
+            problem: Box::new(problem),
         };
         let shaped = |dense: Dense, key: &str, expected: &[Option<usize>]| {
             check_shape(file, key, &dense.shape, expected).map(|()| dense)
