@@ -32,6 +32,7 @@ mod overlap;
 mod pairs;
 pub(crate) mod raster;
 mod scanner;
+pub(crate) mod snapped;
 mod spans;
 
 pub use columns::CoveredVolumes;

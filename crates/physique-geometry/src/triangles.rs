@@ -1,6 +1,7 @@
 use std::sync::Arc;
 
 use glam::Vec3;
+use multiversion::multiversion;
 
 use crate::Error;
 
@@ -116,20 +117,35 @@ impl Triangles {
         Ok(())
     }
 
-    /// Checks that there is one finite position a vertex.
-    pub(crate) fn check_positions(&self, positions: &[Vec3]) -> Result<(), Error> {
+    /// Checks that there is one finite position a vertex; returns the greatest absolute coordinate.
+    pub(crate) fn check_positions(&self, positions: &[Vec3]) -> Result<f32, Error> {
         if positions.len() != self.vertex_count {
             let (expected, found) = (self.vertex_count, positions.len());
             return Err(Error::PositionCount { expected, found });
         }
-        // One pass without branches; the culprit is looked for only when there is one.
-        if positions.iter().fold(true, |fine, p| fine & p.is_finite()) {
-            return Ok(());
+        let farthest = farthest_coordinate(positions);
+        if farthest.is_finite() {
+            return Ok(farthest);
         }
         let culprit = positions.iter().enumerate().find(|(_, p)| !p.is_finite());
         match culprit {
             Some((vertex, &position)) => Err(Error::NotFinite { vertex, position }),
-            None => Ok(()),
+            None => Ok(farthest),
         }
     }
+}
+
+/// The greatest absolute coordinate; not finite if any is not.
+#[multiversion(targets = "simd")]
+fn farthest_coordinate(positions: &[Vec3]) -> f32 {
+    // Without their sign, the bits of numbers are in the numbers' order, infinity and NaN last; and
+    // the order of integers, unlike that of floats, lets the compiler compare many at a time.
+    let magnitude = |x: f32| x.abs().to_bits();
+    let farthest = positions.iter().fold(0, |farthest: u32, p| {
+        farthest
+            .max(magnitude(p.x))
+            .max(magnitude(p.y))
+            .max(magnitude(p.z))
+    });
+    f32::from_bits(farthest)
 }

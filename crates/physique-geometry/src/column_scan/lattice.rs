@@ -1,6 +1,6 @@
 use glam::Vec3;
-use multiversion::multiversion;
 
+use super::snapped::Placement;
 use super::{Axis, ScanOptions};
 use crate::Error;
 
@@ -14,15 +14,6 @@ pub(crate) const DEPTH_UNITS: f32 = 65536.0;
 const SHIFT: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053];
 /// Positions farther from the origin than this many spacings are too coarse in `f32`.
 const MOST_CELLS_FROM_ORIGIN: f64 = (1 << 20) as f64;
-
-/// A vertex as the lattice sees it.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Snapped {
-    /// Across the lines, in subcells from line (0, 0).
-    pub(crate) across: [i32; 2],
-    /// Along the lines, in depth units from the lattice's origin.
-    pub(crate) depth: f32,
-}
 
 /// The lines that one mesh in one pose needs.
 #[derive(Debug, Clone, Copy)]
@@ -78,19 +69,16 @@ impl Lattice {
         (units as f64 * f64::from(self.spacing) / f64::from(DEPTH_UNITS)) as f32
     }
 
-    /// Moves all vertices into the lattice.
-    pub(super) fn snap(&self, positions: &[Vec3], snapped: &mut Vec<Snapped>) {
-        let subcells = (1 << SUBCELL_BITS) as f32 / self.spacing;
-        let depth_units = DEPTH_UNITS / self.spacing;
-        snap(
-            positions,
-            self.axis,
-            self.origin,
-            self.origin_depth,
-            subcells,
-            depth_units,
-            snapped,
-        );
+    /// How vertices are moved into the lattice.
+    pub(super) fn placement(&self) -> Placement {
+        Placement {
+            axis: self.axis,
+            origin: self.origin,
+            origin_depth: self.origin_depth,
+            subcells: (1 << SUBCELL_BITS) as f32 / self.spacing,
+            depth_units: DEPTH_UNITS / self.spacing,
+            lines: self.lines,
+        }
     }
 
     /// The point at `depth` on line number `line`, in metres.
@@ -132,24 +120,4 @@ fn side(least: f32, most: f32, shift: f64, spacing: f32) -> Result<(f32, usize),
         ((first + shift) * f64::from(spacing)) as f32,
         lines as usize,
     ))
-}
-
-/// Moves positions into the lattice with these origins and scales.
-#[multiversion(targets = "simd")]
-pub(crate) fn snap(
-    positions: &[Vec3],
-    axis: Axis,
-    origin: [f32; 2],
-    origin_depth: f32,
-    subcells: f32,
-    depth_units: f32,
-    snapped: &mut Vec<Snapped>,
-) {
-    snapped.resize(positions.len(), Snapped::default());
-    for (snapped, &position) in snapped.iter_mut().zip(positions) {
-        let ([u, v], along) = axis.across_and_along(position);
-        let snap = |x: f32, origin: f32| ((x - origin) * subcells).round_ties_even() as i32;
-        snapped.across = [snap(u, origin[0]), snap(v, origin[1])];
-        snapped.depth = (along - origin_depth) * depth_units;
-    }
 }

@@ -17,7 +17,7 @@ pub enum Axis {
 impl Axis {
     /// The coordinates of `p` across the axis (two, so that they and the axis are right-handed) and
     /// along it.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn across_and_along(self, p: Vec3) -> ([f32; 2], f32) {
         match self {
             Self::X => ([p.y, p.z], p.x),

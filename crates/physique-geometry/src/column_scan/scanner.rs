@@ -3,10 +3,11 @@ use glam::Vec3;
 use super::ScanOptions;
 use super::columns::{Columns, CoveredVolumes};
 use super::labels::TriangleLabels;
-use super::lattice::{Lattice, SUBCELL_BITS, Snapped};
+use super::lattice::{Lattice, SUBCELL_BITS};
 use super::overlap::{self, Overlap};
 use super::pairs::PairOverlaps;
 use super::raster::Raster;
+use super::snapped::SnappedVertices;
 use super::spans::Spans;
 use crate::{Error, Triangles};
 
@@ -37,7 +38,7 @@ use crate::{Error, Triangles};
 pub struct ColumnScanner {
     triangles: Triangles,
     options: ScanOptions,
-    snapped: Vec<Snapped>,
+    snapped: SnappedVertices,
     raster: Raster,
     columns: Columns,
     spans: Spans,
@@ -55,7 +56,7 @@ impl ColumnScanner {
         Ok(Self {
             triangles: triangles.clone(),
             options,
-            snapped: Vec::new(),
+            snapped: SnappedVertices::default(),
             raster: Raster::default(),
             columns: Columns::default(),
             spans: Spans::default(),
@@ -78,7 +79,8 @@ impl ColumnScanner {
     pub fn scan(&mut self, positions: &[Vec3]) -> Result<Scan<'_>, Error> {
         self.triangles.check_positions(positions)?;
         let lattice = Lattice::around(positions, &self.options)?;
-        lattice.snap(positions, &mut self.snapped);
+        self.snapped
+            .snap::<SUBCELL_BITS>(positions, &lattice.placement());
         self.raster.draw::<SUBCELL_BITS>(
             &self.triangles,
             &self.snapped,

@@ -3,8 +3,9 @@ use multiversion::multiversion;
 
 use super::{POINTS_ASIDE, VOXEL_CM3, coordinate, in_ball};
 use crate::column_scan::crossing::Crossing;
-use crate::column_scan::lattice::{DEPTH_UNITS, Snapped, snap};
+use crate::column_scan::lattice::DEPTH_UNITS;
 use crate::column_scan::raster::Raster;
+use crate::column_scan::snapped::{Placement, SnappedVertices};
 use crate::{Axis, Error, Triangles};
 
 /// Vertices are snapped across the lines to 1/2^18 of the spacing: a quarter of a micrometre.
@@ -61,7 +62,7 @@ impl SiaVolumes {
 #[derive(Debug, Clone)]
 pub struct SiaCounter {
     triangles: Triangles,
-    snapped: Vec<Snapped>,
+    snapped: SnappedVertices,
     raster: Raster,
     /// Change of the winding number from the point before, by z, then line; one layer beyond the grid.
     steps: Vec<i16>,
@@ -81,7 +82,7 @@ impl SiaCounter {
         triangles.require_closed()?;
         Ok(Self {
             triangles: triangles.clone(),
-            snapped: Vec::new(),
+            snapped: SnappedVertices::default(),
             raster: Raster::default(),
             steps: vec![0; LINES * (POINTS_ASIDE + 1)],
             in_ball: points().map(|point| -i16::from(in_ball(point))).collect(),
@@ -128,11 +129,7 @@ impl SiaCounter {
 
     /// Finds the steps of the winding number along all lines.
     fn step(&mut self, positions: &[Vec3]) -> Result<(), Error> {
-        self.triangles.check_positions(positions)?;
-        let farthest = positions
-            .iter()
-            .fold(Vec3::ZERO, |far, p| far.max(p.abs()))
-            .max_element();
+        let farthest = self.triangles.check_positions(positions)?;
         if farthest > FARTHEST {
             return Err(Error::OutsideUnitBall {
                 distance: farthest,
@@ -140,17 +137,16 @@ impl SiaCounter {
             });
         }
         let cells = (POINTS_ASIDE - 1) as f32 / 2.0;
-        let subcells = cells * (1 << SUBCELL_BITS) as f32;
-        snap(
-            positions,
-            Axis::Z,
-            [-1.0; 2],
-            -1.0,
-            subcells,
-            cells * DEPTH_UNITS,
-            &mut self.snapped,
-        );
         let lines = [POINTS_ASIDE; 2];
+        let placement = Placement {
+            axis: Axis::Z,
+            origin: [-1.0; 2],
+            origin_depth: -1.0,
+            subcells: cells * (1 << SUBCELL_BITS) as f32,
+            depth_units: cells * DEPTH_UNITS,
+            lines,
+        };
+        self.snapped.snap::<SUBCELL_BITS>(positions, &placement);
         self.raster
             .draw::<SUBCELL_BITS>(&self.triangles, &self.snapped, lines, MOST_CROSSINGS)?;
         self.steps.fill(0);

@@ -48,17 +48,17 @@ fn find_with<V: Vector>(leaves: LeafPair<'_>, shared: SharedVertices, pairs: &mu
         box_of_second,
     } = leaves;
     let skip_shared = shared == SharedVertices::Skip;
-    for lane in 0..first.count {
-        if !first.bounds_of(lane).overlaps(box_of_second) {
-            continue;
-        }
+    let mut lanes = overlapping::<V>(box_of_second, first);
+    while lanes != 0 {
+        let lane = lanes.trailing_zeros() as usize;
+        lanes &= lanes - 1;
         // Within one leaf, every pair once.
         let later = if same {
             u32::MAX << (lane + 1)
         } else {
             u32::MAX
         };
-        let mut candidates = overlapping::<V>(first, lane, second) & later;
+        let mut candidates = overlapping::<V>(&first.bounds_of(lane), second) & later;
         if candidates != 0 {
             candidates = unseparated::<V>(first, lane, second, skip_shared, candidates);
         }
@@ -114,7 +114,7 @@ mod tests {
     fn masks<V: Vector>(one: &Leaf, lane: usize, leaf: &Leaf, skip_shared: bool) -> [u32; 2] {
         let all = super::super::leaf::ALL_LANES;
         [
-            overlapping::<V>(one, lane, leaf),
+            overlapping::<V>(&one.bounds_of(lane), leaf),
             unseparated::<V>(one, lane, leaf, skip_shared, all),
         ]
     }

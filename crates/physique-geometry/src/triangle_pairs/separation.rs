@@ -11,6 +11,7 @@
 
 use super::lanes::Vector;
 use super::leaf::{ALL_LANES, Lanes, Leaf};
+use super::tree::Aabb;
 
 /// Rounding error of a product of differences of `f32` numbers, relative to the product of the
 /// vectors' lengths as sums of absolute coordinates. Each term of the sum passes at most through
@@ -131,13 +132,13 @@ impl Shared {
     }
 }
 
-/// Bit mask of the triangles of `leaf` whose box overlaps that of triangle `lane` of `one`.
+/// Bit mask of the triangles of `leaf` whose box overlaps this one.
 #[inline(always)]
-pub(super) fn overlapping<V: Vector>(one: &Leaf, lane: usize, leaf: &Leaf) -> u32 {
+pub(super) fn overlapping<V: Vector>(bounds: &Aabb, leaf: &Leaf) -> u32 {
     let mut apart = 0;
     for axis in 0..3 {
-        apart |= V::load(&leaf.least[axis]).greater(V::splat(one.most[axis][lane]));
-        apart |= V::splat(one.least[axis][lane]).greater(V::load(&leaf.most[axis]));
+        apart |= V::load(&leaf.least[axis]).greater(V::splat(bounds.most[axis]));
+        apart |= V::splat(bounds.least[axis]).greater(V::load(&leaf.most[axis]));
     }
     !apart & ALL_LANES
 }
