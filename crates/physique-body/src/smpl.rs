@@ -15,8 +15,8 @@
 //! landmarks, texture coordinates) are passed over unread.
 //!
 //! **Closed or not.** Volume, mass and scores of self-intersection ask for one closed surface. A
-//! file's mesh is taken as it is; [`BodyModel::surface`] tells how many edges are open and how
-//! many parts there are. SMPL-X carries eyeballs within the head: a score counts what they cover
+//! file's mesh is read as it is; [`BodyModel::surface`] tells how many edges are open and how
+//! many parts there are. Scores refuse open meshes and take several parts. SMPL-X carries eyeballs within the head: a score counts what they cover
 //! as the head within itself, in every frame. Compare such a body with its own rest pose.
 //!
 //! Source: Loper et al., "SMPL: A Skinned Multi-Person Linear Model", 2015, and the layouts of the
