@@ -26,7 +26,6 @@ pub(crate) fn table(report: &Report, worst: Option<usize>) -> String {
             "in ground\nmean, cm",
             "floating\nmean, cm",
             "sliding\ncm/s",
-            "balanced\n%",
             "jerk\nm/s³",
         ],
         Protocol::Sia => &["SI mean\ncm³ of the ball", "SI\n% of volume"],
@@ -126,10 +125,10 @@ fn native(score: &MotionScore, row: &mut Vec<Cell>) {
     row.push(Cell::new(pair));
 }
 
-/// Ground, feet, balance and smoothness; a dash for what the clip does not have.
-fn physics(score: &MotionScore) -> [Cell; 5] {
+/// Ground, feet and smoothness; a dash for what the clip does not have. Balance stays in the JSON
+/// until its figures on mapped walking are understood.
+fn physics(score: &MotionScore) -> [Cell; 4] {
     let found = score.physics.as_ref();
-    let balance = found.and_then(|found| found.balance.as_ref());
     let smoothness = found.and_then(|found| found.smoothness.as_ref());
     let cell = |value: Option<f64>, digits| match value {
         Some(value) => Cell::new(format!("{value:.digits$}")),
@@ -139,7 +138,6 @@ fn physics(score: &MotionScore) -> [Cell; 5] {
         cell(found.map(|found| found.ground.penetration_mean_cm), 1),
         cell(found.map(|found| found.ground.floating_mean_cm), 1),
         cell(found.map(|found| found.feet.slide_mean_cm_s), 1),
-        cell(balance.map(|balance| balance.stable_percent), 0),
         cell(smoothness.map(|smoothness| smoothness.jerk_mean_m_s3), 0),
     ]
 }
