@@ -10,7 +10,7 @@ use glam::{Affine3A, Vec3, Vec3A, Vec4};
 
 use crate::BlendWeights;
 
-/// `world_from_rest` of one joint, as padded columns: what skinning blends.
+/// `world_from_rest` of one joint, as padded columns.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(crate) struct SkinningTransform {
@@ -30,23 +30,9 @@ impl SkinningTransform {
     }
 
     #[inline]
-    fn scaled(&self, weight: f32) -> Self {
-        Self {
-            columns: self.columns.map(|column| column * weight),
-        }
-    }
-
-    #[inline]
-    fn add_scaled(&mut self, other: &Self, weight: f32) {
-        for (sum, column) in self.columns.iter_mut().zip(&other.columns) {
-            *sum += *column * weight;
-        }
-    }
-
-    #[inline]
-    fn apply(&self, rest: Vec3) -> Vec3 {
+    fn apply(&self, rest: Vec3) -> Vec4 {
         let [x, y, z, translation] = self.columns;
-        (x * rest.x + y * rest.y + z * rest.z + translation).truncate()
+        x * rest.x + y * rest.y + z * rest.z + translation
     }
 }
 
@@ -100,12 +86,13 @@ impl SkinningPlan {
         skin_group(&self.three, rest_vertices, transforms, positions);
         skin_group(&self.four, rest_vertices, transforms, positions);
         for (vertex, row) in &self.more {
-            let mut blended = transforms[0].scaled(0.0);
-            for &(joint, weight) in row {
-                blended.add_scaled(&transforms[usize::from(joint)], weight);
-            }
             let vertex = *vertex as usize;
-            positions[vertex] = blended.apply(rest_vertices[vertex]);
+            let mut moved = Vec4::ZERO;
+            for &(joint, weight) in row {
+                let transform = &transforms[usize::from(joint)];
+                moved += transform.apply(rest_vertices[vertex]) * weight;
+            }
+            positions[vertex] = moved.truncate();
         }
     }
 }
@@ -144,15 +131,16 @@ fn skin_group<const INFLUENCES: usize>(
 ) {
     let rows = group.joints.iter().zip(&group.weights);
     for (&vertex, (joints, weights)) in group.vertices.iter().zip(rows) {
-        let mut blended = transforms[usize::from(joints[0])];
+        let vertex = vertex as usize;
+        let rest = rest_vertices[vertex];
+        let mut moved = transforms[usize::from(joints[0])].apply(rest);
         if INFLUENCES > 1 {
-            blended = blended.scaled(weights[0]);
+            moved *= weights[0];
         }
         for influence in 1..INFLUENCES {
             let transform = &transforms[usize::from(joints[influence])];
-            blended.add_scaled(transform, weights[influence]);
+            moved += transform.apply(rest) * weights[influence];
         }
-        let vertex = vertex as usize;
-        positions[vertex] = blended.apply(rest_vertices[vertex]);
+        positions[vertex] = moved.truncate();
     }
 }
