@@ -1,10 +1,10 @@
 //! Linear blend skinning: a vertex moves by the weighted mean of its joints' transforms.
 //!
 //! The sum runs over the few joints that really move a vertex, not over all of them as the usual
-//! dense formulation does. Vertices are visited by number of influences, so that the many rigid
-//! ones pay for one transform only and no loop has a branch. Four-lane vectors of glam fit the
-//! four columns of a transform on every processor; no fused multiply-add is used, so all of them
-//! give the same bits.
+//! dense formulation does. Vertices are visited by the joints they follow, so that the transforms
+//! stay in registers, the many rigid vertices pay for one only, and no loop has a branch. Four-lane
+//! vectors of glam fit the four columns of a transform on every processor; no fused multiply-add is
+//! used, so all of them give the same bits.
 
 use glam::{Affine3A, Vec3, Vec3A, Vec4};
 
@@ -37,38 +37,43 @@ impl SkinningTransform {
 }
 
 /// The blend weights of a model, laid out for skinning.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct SkinningPlan {
-    one: Group<1>,
-    two: Group<2>,
-    three: Group<3>,
-    four: Group<4>,
+    one: Vec<Block<1>>,
+    two: Vec<Block<2>>,
+    three: Vec<Block<3>>,
+    four: Vec<Block<4>>,
     /// Vertices of more influences, which no published body has.
-    more: Vec<(u32, Vec<(u8, f32)>)>,
+    more: Vec<(u32, Vec<(usize, f32)>)>,
+}
+
+/// Vertices that follow the same joints.
+#[derive(Clone, Debug)]
+struct Block<const INFLUENCES: usize> {
+    joints: [usize; INFLUENCES],
+    vertices: Vec<(u32, [f32; INFLUENCES])>,
 }
 
 impl SkinningPlan {
     pub(crate) fn new(blend_weights: &BlendWeights) -> Self {
-        let mut plan = Self {
-            one: Group::default(),
-            two: Group::default(),
-            three: Group::default(),
-            four: Group::default(),
-            more: Vec::new(),
-        };
-        for vertex in 0..blend_weights.vertex_count() {
-            let row: Vec<_> = blend_weights
-                .row(vertex)
-                .filter(|&(_, weight)| weight > 0.0)
-                .map(|(joint, weight)| (joint as u8, weight))
-                .collect();
-            let index = vertex as u32;
+        let mut rows: Vec<_> = (0..blend_weights.vertex_count())
+            .map(|vertex| {
+                let row = blend_weights.row(vertex);
+                let mut row: Vec<_> = row.filter(|&(_, weight)| weight > 0.0).collect();
+                row.sort_by_key(|&(joint, _)| joint);
+                (vertex as u32, row)
+            })
+            .collect();
+        // Stable: vertices of the same joints stay in order, so that memory is walked forwards.
+        rows.sort_by_cached_key(|(_, row)| row.iter().map(|&(joint, _)| joint).collect::<Vec<_>>());
+        let mut plan = Self::default();
+        for (vertex, row) in rows {
             match *row {
-                [a] => plan.one.push(index, [a]),
-                [a, b] => plan.two.push(index, [a, b]),
-                [a, b, c] => plan.three.push(index, [a, b, c]),
-                [a, b, c, d] => plan.four.push(index, [a, b, c, d]),
-                _ => plan.more.push((index, row)),
+                [a] => add(&mut plan.one, vertex, [a]),
+                [a, b] => add(&mut plan.two, vertex, [a, b]),
+                [a, b, c] => add(&mut plan.three, vertex, [a, b, c]),
+                [a, b, c, d] => add(&mut plan.four, vertex, [a, b, c, d]),
+                _ => plan.more.push((vertex, row)),
             }
         }
         plan
@@ -81,66 +86,57 @@ impl SkinningPlan {
         transforms: &[SkinningTransform],
         positions: &mut [Vec3],
     ) {
-        skin_group(&self.one, rest_vertices, transforms, positions);
-        skin_group(&self.two, rest_vertices, transforms, positions);
-        skin_group(&self.three, rest_vertices, transforms, positions);
-        skin_group(&self.four, rest_vertices, transforms, positions);
+        skin_blocks(&self.one, rest_vertices, transforms, positions);
+        skin_blocks(&self.two, rest_vertices, transforms, positions);
+        skin_blocks(&self.three, rest_vertices, transforms, positions);
+        skin_blocks(&self.four, rest_vertices, transforms, positions);
         for (vertex, row) in &self.more {
             let vertex = *vertex as usize;
             let mut moved = Vec4::ZERO;
             for &(joint, weight) in row {
-                let transform = &transforms[usize::from(joint)];
-                moved += transform.apply(rest_vertices[vertex]) * weight;
+                moved += transforms[joint].apply(rest_vertices[vertex]) * weight;
             }
             positions[vertex] = moved.truncate();
         }
     }
 }
 
-/// Vertices that the same number of joints moves.
-#[derive(Clone, Debug)]
-struct Group<const INFLUENCES: usize> {
-    vertices: Vec<u32>,
-    joints: Vec<[u8; INFLUENCES]>,
-    weights: Vec<[f32; INFLUENCES]>,
-}
-
-impl<const INFLUENCES: usize> Default for Group<INFLUENCES> {
-    fn default() -> Self {
-        Self {
-            vertices: Vec::new(),
-            joints: Vec::new(),
-            weights: Vec::new(),
-        }
+/// Adds a vertex to the last block if that has the same joints, else to a new one.
+fn add<const INFLUENCES: usize>(
+    blocks: &mut Vec<Block<INFLUENCES>>,
+    vertex: u32,
+    row: [(usize, f32); INFLUENCES],
+) {
+    let joints = row.map(|(joint, _)| joint);
+    let vertex = (vertex, row.map(|(_, weight)| weight));
+    match blocks.last_mut() {
+        Some(block) if block.joints == joints => block.vertices.push(vertex),
+        _ => blocks.push(Block {
+            joints,
+            vertices: vec![vertex],
+        }),
     }
 }
 
-impl<const INFLUENCES: usize> Group<INFLUENCES> {
-    fn push(&mut self, vertex: u32, row: [(u8, f32); INFLUENCES]) {
-        self.vertices.push(vertex);
-        self.joints.push(row.map(|(joint, _)| joint));
-        self.weights.push(row.map(|(_, weight)| weight));
-    }
-}
-
-fn skin_group<const INFLUENCES: usize>(
-    group: &Group<INFLUENCES>,
+fn skin_blocks<const INFLUENCES: usize>(
+    blocks: &[Block<INFLUENCES>],
     rest_vertices: &[Vec3],
     transforms: &[SkinningTransform],
     positions: &mut [Vec3],
 ) {
-    let rows = group.joints.iter().zip(&group.weights);
-    for (&vertex, (joints, weights)) in group.vertices.iter().zip(rows) {
-        let vertex = vertex as usize;
-        let rest = rest_vertices[vertex];
-        let mut moved = transforms[usize::from(joints[0])].apply(rest);
-        if INFLUENCES > 1 {
-            moved *= weights[0];
+    for block in blocks {
+        let transforms = block.joints.map(|joint| transforms[joint]);
+        for (vertex, weights) in &block.vertices {
+            let vertex = *vertex as usize;
+            let rest = rest_vertices[vertex];
+            let mut moved = transforms[0].apply(rest);
+            if INFLUENCES > 1 {
+                moved *= weights[0];
+            }
+            for influence in 1..INFLUENCES {
+                moved += transforms[influence].apply(rest) * weights[influence];
+            }
+            positions[vertex] = moved.truncate();
         }
-        for influence in 1..INFLUENCES {
-            let transform = &transforms[usize::from(joints[influence])];
-            moved += transform.apply(rest) * weights[influence];
-        }
-        positions[vertex] = moved.truncate();
     }
 }
