@@ -13,7 +13,7 @@ use physique_view::MotionSheet;
 use crate::arguments::DemoArguments;
 use crate::exit::Exit;
 use crate::table::table;
-use crate::write::write_file;
+use physique_files::write_file;
 
 pub(crate) fn run(arguments: &DemoArguments) -> Result<Exit> {
     let start = Instant::now();

@@ -10,7 +10,6 @@ mod progress;
 mod score;
 mod table;
 mod view;
-mod write;
 
 use std::process::ExitCode;
 

@@ -15,7 +15,7 @@ use crate::files::motion_files;
 use crate::progress::Progress;
 use crate::table::table;
 use crate::view::load_options;
-use crate::write::write_file;
+use physique_files::write_file;
 
 pub(crate) fn run(arguments: &ScoreArguments) -> Result<Exit> {
     if arguments.schema {
