@@ -105,6 +105,8 @@ impl<'a> Resolver<'a> {
                     light: Vec3::ZERO,
                     nearness: nearness[first],
                 });
+                // The nearest of several: whichever sample comes first must not matter.
+                far.nearness = far.nearness.max(nearness[first]);
                 far.light += here;
             }
         }

@@ -9,7 +9,7 @@ use crate::support::{at, draw, mesh};
 const SIZE: u32 = 48;
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(256))]
 
     #[test]
     fn mirrored_triangles_give_the_mirrored_picture(
