@@ -106,7 +106,6 @@ fn parse_comparison(text: &str) -> Result<Comparison, String> {
     let measure = known
         .into_iter()
         .flat_map(measure_names)
-        .copied()
         .find(|&known| known == name)
         .ok_or_else(|| {
             let names = known.map(|protocol| measure_names(protocol).join(", "));

@@ -4,6 +4,7 @@ use physique_body::Body;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::physics_score::PhysicsScore;
 use crate::{MotionScore, Protocol};
 
 /// Name and version of the JSON that [`Report`] becomes. The number grows when a field changes its
@@ -133,39 +134,25 @@ pub fn measures(score: &MotionScore) -> Vec<(&'static str, f64)> {
 }
 
 /// Names of all measures of a protocol, in the order of [`measures`].
-pub fn measure_names(protocol: Protocol) -> &'static [&'static str] {
+pub fn measure_names(protocol: Protocol) -> Vec<&'static str> {
+    let mut names = vec!["frames", "frame_rate_fps", "duration_s"];
     match protocol {
-        Protocol::Native => &[
-            "frames",
-            "frame_rate_fps",
-            "duration_s",
-            "self_intersection_mean_cm3",
-            "self_intersection_mean_percent_of_body",
-            "self_intersection_worst_cm3",
-            "self_intersection_worst_s",
-            "self_intersection_frames_above_50_cm3_percent",
-            "crease_mean_cm3",
-            "ground_penetration_mean_cm",
-            "ground_penetration_worst_cm",
-            "ground_floating_mean_cm",
-            "ground_unsupported_percent",
-            "ground_flight_percent",
-            "feet_slide_mean_cm_s",
-            "feet_slide_frames_percent",
-            "balance_stable_percent",
-            "balance_outside_mean_cm",
-            "balance_margin_mean_cm",
-            "smoothness_acceleration_mean_m_s2",
-            "smoothness_jerk_mean_m_s3",
-            "smoothness_jitter_mean_mm",
-        ],
-        Protocol::Sia => &[
-            "frames",
-            "frame_rate_fps",
-            "duration_s",
+        Protocol::Native => {
+            names.extend([
+                "self_intersection_mean_cm3",
+                "self_intersection_mean_percent_of_body",
+                "self_intersection_worst_cm3",
+                "self_intersection_worst_s",
+                "self_intersection_frames_above_50_cm3_percent",
+                "crease_mean_cm3",
+            ]);
+            names.extend(PhysicsScore::NAMES);
+        }
+        Protocol::Sia => names.extend([
             "sia_self_intersection_cm3",
             "sia_volume_cm3",
             "sia_self_intersection_percent",
-        ],
+        ]),
     }
+    names
 }

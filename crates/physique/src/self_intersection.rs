@@ -1,6 +1,6 @@
 //! How much a body passes through itself, where and when.
 //!
-//! The measure is the volume that the closed skin covers twice ([`ColumnScanner`], exact along
+//! The measure is the volume that the closed skin covers twice ([`ColumnScanner`](physique_geometry::ColumnScanner), exact along
 //! lines), told apart by pair of body parts. It is taken in the pelvis's frame: moving or turning
 //! the whole body changes nothing, to the bit.
 //!
@@ -17,6 +17,3 @@ pub use crease::is_crease;
 pub use frame::{FrameIntersections, PairVolume};
 pub(crate) use frame::{FrameMeter, Surface};
 pub use summary::{PairSummary, SelfIntersection};
-
-#[allow(unused_imports)] // For the documentation's link.
-use physique_geometry::ColumnScanner;

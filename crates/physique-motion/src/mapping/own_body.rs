@@ -1,12 +1,9 @@
-//! A skeleton that is the body's own, as [`SkeletonClip::from_motion`] writes it.
+//! A skeleton that is the body's own, as [`from_motion`](crate::SkeletonClip::from_motion) writes it.
 
 use physique_body::Joint;
 
 use super::{MappingOptions, body_rest::BodyRest};
 use crate::Skeleton;
-
-#[allow(unused_imports)] // For the documentation's link.
-use crate::SkeletonClip;
 
 /// Joints may lie this far from the body's, in metres: what text files round.
 const ROUNDING: f32 = 1e-3;
