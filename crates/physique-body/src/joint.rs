@@ -62,6 +62,21 @@ impl Joint {
         Some(RightElbow),
     ];
 
+    /// Hip, knee, ankle and ball of the foot: of the left leg, then of the right.
+    pub const LEGS: [[Self; 4]; 2] = [
+        [LeftHip, LeftKnee, LeftAnkle, LeftFoot],
+        [RightHip, RightKnee, RightAnkle, RightFoot],
+    ];
+
+    /// Collar, shoulder, elbow and wrist: of the left arm, then of the right.
+    pub const ARMS: [[Self; 4]; 2] = [
+        [LeftCollar, LeftShoulder, LeftElbow, LeftWrist],
+        [RightCollar, RightShoulder, RightElbow, RightWrist],
+    ];
+
+    /// What stands over the soles: both ankles, then both balls of the feet.
+    pub const FEET: [Self; 4] = [LeftAnkle, RightAnkle, LeftFoot, RightFoot];
+
     /// The joint's place in SMPL's order.
     pub const fn index(self) -> usize {
         self as usize
@@ -180,6 +195,21 @@ mod tests {
                     .replace("left", "*")
                     .replace("right", "*")
             );
+        }
+    }
+
+    #[test]
+    fn limbs_are_chains_of_the_tree_and_mirror_each_other() {
+        for limbs in [Joint::LEGS, Joint::ARMS] {
+            assert_eq!(limbs[0].map(Joint::mirrored), limbs[1]);
+            for limb in limbs {
+                for bone in limb.windows(2) {
+                    assert_eq!(bone[1].parent(), Some(bone[0]));
+                }
+            }
+        }
+        for foot in Joint::FEET {
+            assert!(Joint::LEGS.iter().any(|leg| leg[2..].contains(&foot)));
         }
     }
 

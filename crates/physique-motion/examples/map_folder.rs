@@ -163,20 +163,7 @@ impl Checks {
         for frame in 0..motion.frame_count() {
             let (world, positions) = pose(motion, body, frame);
             let at = |joint: Joint| positions[joint.index()];
-            for (hip, knee, ankle, foot) in [
-                (
-                    Joint::LeftHip,
-                    Joint::LeftKnee,
-                    Joint::LeftAnkle,
-                    Joint::LeftFoot,
-                ),
-                (
-                    Joint::RightHip,
-                    Joint::RightKnee,
-                    Joint::RightAnkle,
-                    Joint::RightFoot,
-                ),
-            ] {
+            for [hip, knee, ankle, foot] in Joint::LEGS {
                 let bend = (at(knee) - at(hip)).cross(at(ankle) - at(knee));
                 // A knee bends about its left; the shin then carries the foot, which points on.
                 let hinge = world[knee.index()] * Vec3::X;
@@ -211,15 +198,10 @@ impl Checks {
             }
             let sole = |joint: Joint| at(joint).y - body.height(joint);
             checks.lowest_soles.push(
-                [
-                    Joint::LeftAnkle,
-                    Joint::RightAnkle,
-                    Joint::LeftFoot,
-                    Joint::RightFoot,
-                ]
-                .map(sole)
-                .into_iter()
-                .fold(f32::INFINITY, f32::min),
+                Joint::FEET
+                    .map(sole)
+                    .into_iter()
+                    .fold(f32::INFINITY, f32::min),
             );
             let facing = (world[0] * Vec3::Z).with_y(0.0).normalize_or_zero();
             if let Some(before) = before {

@@ -146,31 +146,14 @@ pub fn solve(
 
 /// Height of the lowest sole of all frames when the body moves so.
 fn lowest_sole(poses: &[SolvedPose], roots: &[Vec3], body: &BodyRest) -> f32 {
-    let legs = [
-        [
-            Joint::LeftHip,
-            Joint::LeftKnee,
-            Joint::LeftAnkle,
-            Joint::LeftFoot,
-        ],
-        [
-            Joint::RightHip,
-            Joint::RightKnee,
-            Joint::RightAnkle,
-            Joint::RightFoot,
-        ],
-    ];
     let mut lowest = f32::INFINITY;
     for (pose, root) in poses.iter().zip(roots) {
-        for leg in legs {
+        for leg in Joint::LEGS {
             let (mut position, mut above) = (*root + body.joints[0], pose.world[0]);
             for joint in leg {
                 position += above * body.offset(joint);
                 above = pose.world[joint.index()];
-                if matches!(
-                    joint,
-                    Joint::LeftAnkle | Joint::RightAnkle | Joint::LeftFoot | Joint::RightFoot
-                ) {
+                if Joint::FEET.contains(&joint) {
                     lowest = lowest.min(position.y - body.height(joint));
                 }
             }

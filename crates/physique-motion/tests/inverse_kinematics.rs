@@ -159,13 +159,7 @@ fn any_unit_gives_the_same_motion_with_its_soles_on_the_ground() {
     assert!(b.fit.all.max_cm < 0.05);
     let lowest = (0..10).flat_map(|frame| {
         let positions = support::pose(&b.motion, &body, frame).1;
-        [
-            Joint::LeftAnkle,
-            Joint::RightAnkle,
-            Joint::LeftFoot,
-            Joint::RightFoot,
-        ]
-        .map(|joint| positions[joint.index()].y - body.height(joint))
+        Joint::FEET.map(|joint| positions[joint.index()].y - body.height(joint))
     });
     assert!(lowest.fold(f32::INFINITY, f32::min).abs() < 1e-4);
 }

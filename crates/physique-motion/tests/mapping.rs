@@ -258,13 +258,7 @@ fn other_proportions_keep_directions_of_bones_and_places_of_feet() {
         }
         // Some sole is on the ground in every frame, as in the truth.
         let positions = pose(&mapped.motion, &figure(), frame).1;
-        let soles = [
-            Joint::LeftAnkle,
-            Joint::RightAnkle,
-            Joint::LeftFoot,
-            Joint::RightFoot,
-        ]
-        .map(|joint| positions[joint.index()].y - figure().height(joint));
+        let soles = Joint::FEET.map(|joint| positions[joint.index()].y - figure().height(joint));
         let lowest = soles.into_iter().fold(f32::INFINITY, f32::min);
         assert!(lowest.abs() < 0.02, "frame {frame}: {lowest}");
     }

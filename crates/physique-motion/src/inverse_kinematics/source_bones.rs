@@ -74,15 +74,11 @@ impl SourceBones {
 
     /// Hip to knee to ankle, mean of both legs.
     pub(super) fn leg_length(&self) -> f32 {
-        let bones = [
-            Joint::LeftKnee,
-            Joint::LeftAnkle,
-            Joint::RightKnee,
-            Joint::RightAnkle,
-        ];
+        let bones = Joint::LEGS.map(|[_, knee, ankle, _]| [knee, ankle]);
         bones
+            .into_iter()
+            .flatten()
             .map(|joint| self.offset(joint).length())
-            .iter()
             .sum::<f32>()
             / 2.0
     }

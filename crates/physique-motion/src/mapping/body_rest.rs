@@ -46,14 +46,10 @@ impl BodyRest {
 
     /// Hip to knee to ankle, mean of both legs, in metres.
     pub fn leg_length(&self) -> f32 {
-        let bones = [
-            Joint::LeftKnee,
-            Joint::LeftAnkle,
-            Joint::RightKnee,
-            Joint::RightAnkle,
-        ];
+        let bones = Joint::LEGS.map(|[_, knee, ankle, _]| [knee, ankle]);
         bones
             .into_iter()
+            .flatten()
             .map(|joint| self.offset(joint).length())
             .sum::<f32>()
             / 2.0

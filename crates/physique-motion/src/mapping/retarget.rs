@@ -45,22 +45,6 @@ pub(super) struct Outcome {
     pub(super) notes: Vec<String>,
 }
 
-/// The body's joints of a leg.
-const LEGS: [[Joint; 4]; 2] = [
-    [
-        Joint::LeftHip,
-        Joint::LeftKnee,
-        Joint::LeftAnkle,
-        Joint::LeftFoot,
-    ],
-    [
-        Joint::RightHip,
-        Joint::RightKnee,
-        Joint::RightAnkle,
-        Joint::RightFoot,
-    ],
-];
-
 impl<'a> Retarget<'a> {
     pub(super) fn new(
         clip: &SkeletonClip,
@@ -223,7 +207,7 @@ impl<'a> Retarget<'a> {
         ground: f32,
     ) -> f32 {
         let mut largest = 0.0f32;
-        for (side, [hip, knee, ankle, foot]) in LEGS.into_iter().enumerate() {
+        for (side, [hip, knee, ankle, foot]) in Joint::LEGS.into_iter().enumerate() {
             let limbs = self.human.sides()[side];
             let mut goal = self.scaled(pose.positions[limbs.ankle], ground);
             if let Some((joint, offset)) = self.balls[side] {

@@ -35,53 +35,15 @@ pub(super) fn find(skeleton: &Skeleton) -> Option<HumanJoints> {
     let mut gathered = Gathered::default();
     let mut set = |joint: Joint, source: Option<usize>| gathered.joints[joint.index()] = source;
     set(Joint::Pelvis, Some(pelvis));
-    for (side, [hip, knee, ankle, foot]) in [
-        (
-            0,
-            [
-                Joint::LeftHip,
-                Joint::LeftKnee,
-                Joint::LeftAnkle,
-                Joint::LeftFoot,
-            ],
-        ),
-        (
-            1,
-            [
-                Joint::RightHip,
-                Joint::RightKnee,
-                Joint::RightAnkle,
-                Joint::RightFoot,
-            ],
-        ),
-    ] {
-        let limb = tree.limb(legs[side])?;
+    for (leg, [hip, knee, ankle, foot]) in legs.into_iter().zip(Joint::LEGS) {
+        let limb = tree.limb(leg)?;
         set(hip, Some(limb.top));
         set(knee, Some(limb.middle));
         set(ankle, Some(limb.end));
         set(foot, limb.after);
     }
-    for (side, [collar, shoulder, elbow, wrist]) in [
-        (
-            0,
-            [
-                Joint::LeftCollar,
-                Joint::LeftShoulder,
-                Joint::LeftElbow,
-                Joint::LeftWrist,
-            ],
-        ),
-        (
-            1,
-            [
-                Joint::RightCollar,
-                Joint::RightShoulder,
-                Joint::RightElbow,
-                Joint::RightWrist,
-            ],
-        ),
-    ] {
-        let limb = tree.limb(arms[side])?;
+    for (arm, [collar, shoulder, elbow, wrist]) in arms.into_iter().zip(Joint::ARMS) {
+        let limb = tree.limb(arm)?;
         set(collar, limb.before);
         set(shoulder, Some(limb.top));
         set(elbow, Some(limb.middle));

@@ -141,13 +141,7 @@ pub fn walk(frames: usize) -> Motion {
     let flying = Motion::new(rate, None, translations.clone(), rotations.clone()).unwrap();
     for (frame, translation) in translations.iter_mut().enumerate() {
         let positions = pose(&flying, &body, frame).1;
-        let soles = [
-            Joint::LeftAnkle,
-            Joint::RightAnkle,
-            Joint::LeftFoot,
-            Joint::RightFoot,
-        ]
-        .map(|joint| positions[joint.index()].y - body.height(joint));
+        let soles = Joint::FEET.map(|joint| positions[joint.index()].y - body.height(joint));
         translation.y -= soles.into_iter().fold(f32::INFINITY, f32::min);
     }
     Motion::new(rate, None, translations, rotations).unwrap()

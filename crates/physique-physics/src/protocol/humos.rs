@@ -36,12 +36,6 @@ const SUPPORT_HEIGHT: f64 = 0.05;
 const SUPPORT_STEP: f64 = 0.02;
 /// Gravity as the paper's code writes it.
 const PAPER_GRAVITY: f64 = 9.8;
-const FEET: [Joint; 4] = [
-    Joint::LeftAnkle,
-    Joint::RightAnkle,
-    Joint::LeftFoot,
-    Joint::RightFoot,
-];
 
 pub(super) fn released(
     physics: &Physics,
@@ -119,7 +113,7 @@ fn per_second(metres_a_frame: Option<f64>, track: &Track) -> Option<f64> {
 /// Horizontal step of every foot joint in every pair of frames, 0 where it is not in contact.
 fn contact_steps(track: &Track) -> impl Iterator<Item = f64> + '_ {
     track.pairs().flat_map(|frame| {
-        FEET.map(|joint| {
+        Joint::FEET.map(|joint| {
             let contact = track.stays_below(frame, joint, JOINT_CONTACT);
             if contact {
                 track.step_on_ground(frame, joint).length()

@@ -13,19 +13,13 @@ use crate::measures::mean;
 /// Millimetres in a metre.
 const MM: f64 = 1000.0;
 const TOLERANCE: f64 = 0.005;
-const FEET: [Joint; 4] = [
-    Joint::LeftAnkle,
-    Joint::RightAnkle,
-    Joint::LeftFoot,
-    Joint::RightFoot,
-];
 
 pub(super) fn measure(track: &Track) -> Vec<ProtocolMeasure> {
     let heights = || track.lowest_skin.iter();
     let below = heights().map(|&height| if height < -TOLERANCE { -height } else { 0.0 });
     let above = heights().map(|&height| if height > TOLERANCE { height } else { 0.0 });
     let skates = track.pairs().flat_map(|frame| {
-        FEET.map(|joint| {
+        Joint::FEET.map(|joint| {
             let contact = track.stays_below(frame, joint, TOLERANCE);
             if contact {
                 track.step_on_ground(frame, joint).length()
