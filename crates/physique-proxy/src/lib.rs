@@ -2,3 +2,16 @@
 //! joints, and the *self-intersection loss* penalises spheres that pass through each other.
 //!
 //! After "Self-intersection-aware motion generation" (BMVC 2025, arXiv 2605.26744).
+
+pub mod error;
+pub mod pairs;
+pub mod penalty;
+pub mod pose_matrices;
+pub mod reference;
+pub mod sphere_body;
+
+pub use error::Error;
+pub use pairs::Pairs;
+pub use penalty::Penalty;
+pub use pose_matrices::{PoseMatrices, pose_matrices};
+pub use sphere_body::SphereBody;

@@ -1,0 +1,43 @@
+//! What can go wrong with sphere bodies and their losses.
+
+/// Why a sphere body, a list of pairs or a loss does not work.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Arrays of a sphere body that do not fit each other, or hold impossible numbers.
+    #[error("Sphere body: expected {expected}, found {found}.")]
+    SphereBody {
+        /// What a sphere body needs.
+        expected: &'static str,
+        /// What this one has.
+        found: String,
+    },
+    /// A pair that cannot be.
+    #[error("Pair ({first}, {second}): expected two different spheres of {spheres}.")]
+    Pair {
+        /// Index of one sphere.
+        first: usize,
+        /// Index of the other.
+        second: usize,
+        /// Number of spheres.
+        spheres: usize,
+    },
+    /// A list of pairs of another body.
+    #[error("Pairs: expected pairs of {expected} spheres as the body has, found pairs of {found}.")]
+    PairCount {
+        /// Spheres of the body.
+        expected: usize,
+        /// Spheres that the pairs were chosen among.
+        found: usize,
+    },
+    /// Slices whose lengths disagree.
+    #[error("{what}: expected {expected} elements, found {found}.")]
+    Length {
+        /// Which slice.
+        what: &'static str,
+        /// Elements needed.
+        expected: usize,
+        /// Elements given.
+        found: usize,
+    },
+}
