@@ -22,6 +22,7 @@
 //! ```
 
 pub mod condition;
+pub mod defects;
 pub mod error;
 mod frames;
 pub mod load;
