@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 
 /// Endings that a search of a folder picks up; a file named outright may have any.
-const ENDINGS: [&str; 2] = ["bvh", "npz"];
+const ENDINGS: [&str; 3] = ["bvh", "npy", "npz"];
 
 /// Files as given; folders are replaced by the motion files below them, sorted.
 pub(crate) fn motion_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {

@@ -35,12 +35,12 @@ pub(crate) fn run(arguments: &ScoreArguments) -> Result<Exit> {
     let progress = Progress::new(files.len());
     let motions: Vec<MotionReport> = files
         .par_iter()
-        .map(|file| {
-            let report = score_file(&scorer, file, &load_options, |frames| {
+        .flat_map_iter(|file| {
+            let reports = score_file(&scorer, file, &load_options, |frames| {
                 progress.frames(frames)
             });
             progress.motion();
-            report
+            reports
         })
         .collect();
     progress.finish();
@@ -60,33 +60,44 @@ pub(crate) fn run(arguments: &ScoreArguments) -> Result<Exit> {
     Ok(judge(&report, arguments))
 }
 
-/// Scores one file; what goes wrong becomes its `unscorable`.
+/// Scores all motions of a file; what goes wrong becomes a motion's `unscorable`.
 fn score_file(
     scorer: &Scorer,
     file: &Path,
     options: &LoadOptions,
     progress: impl Fn(usize) + Sync,
-) -> MotionReport {
-    let name = file.display().to_string();
-    let outcome = load::load(file, scorer.body(), options).and_then(|loaded| {
-        let score = scorer.score_with_progress(&loaded.motion, progress)?;
-        Ok((loaded, score))
+) -> Vec<MotionReport> {
+    let motions = match load::load_each(file, scorer.body(), options) {
+        Ok(motions) => motions,
+        Err(problem) => return vec![not_scored(file.display().to_string(), &problem)],
+    };
+    let reports = motions.into_iter().map(|(name, loaded)| {
+        let name = file.with_file_name(name).display().to_string();
+        let outcome = loaded.and_then(|loaded| {
+            let score = scorer.score_with_progress(&loaded.motion, &progress)?;
+            Ok((loaded, score))
+        });
+        match outcome {
+            Ok((loaded, score)) => MotionReport {
+                file: name,
+                score: Some(score),
+                unscorable: None,
+                mapping: loaded.mapping_summary(),
+                notes: loaded.notes,
+            },
+            Err(problem) => not_scored(name, &problem),
+        }
     });
-    match outcome {
-        Ok((loaded, score)) => MotionReport {
-            file: name,
-            score: Some(score),
-            unscorable: None,
-            mapping: loaded.mapping_summary(),
-            notes: loaded.notes,
-        },
-        Err(problem) => MotionReport {
-            file: name,
-            score: None,
-            unscorable: Some(problem.to_string()),
-            mapping: None,
-            notes: Vec::new(),
-        },
+    reports.collect()
+}
+
+fn not_scored(file: String, problem: &physique::Error) -> MotionReport {
+    MotionReport {
+        file,
+        score: None,
+        unscorable: Some(problem.to_string()),
+        mapping: None,
+        notes: Vec::new(),
     }
 }
 

@@ -57,5 +57,6 @@ pub(crate) fn load_options(arguments: &ReadArguments) -> Result<LoadOptions> {
             table,
             ..MappingOptions::default()
         },
+        ..LoadOptions::default()
     })
 }

@@ -7,7 +7,8 @@
 //! * [`pickle`]: every pickle protocol (0 to 5, from Python 2 and 3), with NumPy arrays, SciPy
 //!   sparse matrices, chumpy and joblib arrays turned into values;
 //! * [`torch`]: `.pt` files, as ZIP archive and in the form before PyTorch 1.6;
-//! * [`named_arrays`]: all arrays of a `.npy`, `.npz`, `.pkl` or `.pt` by name, whatever it is;
+//! * [`Data`]: the values of a `.npy`, `.npz`, `.pkl` or `.pt` as one tree, whatever it is, and
+//!   [`named_arrays`]: its arrays by name;
 //! * [`read_file`] and [`write_file`]: whole files within a limit, and written whole or not at all.
 //!
 //! No file can run code, crash the process or take more memory than its limit: sizes are checked
@@ -16,6 +17,7 @@
 //!
 //! This crate knows nothing of bodies or motions.
 
+pub mod data;
 mod error;
 pub mod named;
 pub mod npz;
@@ -24,6 +26,7 @@ mod read_file;
 pub mod torch;
 mod write_file;
 
+pub use data::Data;
 pub use error::{Error, FileError};
 pub use named::named_arrays;
 pub use read_file::read_file;

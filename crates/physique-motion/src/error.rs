@@ -106,13 +106,41 @@ pub enum Error {
     },
     /// A file of no known format.
     #[error(
-        "{path} looks like {looks_like}; motions are read from BVH, AMASS (.npz), Physique's own .motion.npz and DeepMimic's JSON."
+        "{path} looks like {looks_like}; motions are read from BVH, AMASS (.npz), Physique's own .motion.npz, HumanML3D's and KIT's arrays (.npy), MDM's results.npy and DeepMimic's JSON."
     )]
     UnknownFormat {
         /// The file.
         path: PathBuf,
         /// What its content looks like.
         looks_like: String,
+    },
+    /// A file of several motions where one is expected.
+    #[error(
+        "{path} holds {found} motions where one is expected; name one by its number, such as {path}#0."
+    )]
+    ManyMotions {
+        /// The file.
+        path: PathBuf,
+        /// Motions in it.
+        found: usize,
+    },
+    /// A motion that a file of several does not hold.
+    #[error("{path} holds {found} motions, but none called {name}; they are counted from #0.")]
+    NoSuchMotion {
+        /// The file.
+        path: PathBuf,
+        /// What was asked for.
+        name: String,
+        /// Motions in it.
+        found: usize,
+    },
+    /// A pickle or PyTorch file that is broken, or that holds more than data.
+    #[error("{path}: {source}")]
+    Data {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: physique_files::Error,
     },
     /// An array of a file is broken or missing.
     #[error("{path}: {source}")]

@@ -17,7 +17,7 @@ use physique_body::Joint;
 
 use crate::{
     Error, Motion,
-    features::JointPositions,
+    features::{JointPositions, RotationLayer},
     mapping::{BodyRest, FitError, FitErrorGatherer},
 };
 
@@ -118,6 +118,40 @@ pub fn solve(
         }
     }
 
+    finish(&positions, &bones, &poses, body, options.soles_on_ground)
+}
+
+/// Finds the body's rotations by the self-intersection paper's own layer, [`RotationLayer`], for
+/// comparison with its figures: the pelvis takes the heading only, nothing twists, and the
+/// positions are missed by some 0.1 m at the limbs.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_by_paper_layer(
+    positions: &JointPositions,
+    body: &BodyRest,
+    soles_on_ground: bool,
+) -> Result<IkSolution, Error> {
+    let skeleton = positions.skeleton();
+    let layer = RotationLayer::published(skeleton);
+    let positions = positions.to_smpl_joints()?;
+    let bones = SourceBones::at_rest(&positions, &skeleton.smpl_rest_directions())?;
+    let frames = positions.positions().as_chunks().0.iter();
+    let poses: Vec<SolvedPose> = frames
+        .map(|p| SolvedPose::of_rotations(&bones, p[0], &layer.rotations(p)))
+        .collect();
+    finish(&positions, &bones, &poses, body, soles_on_ground)
+}
+
+/// The motion of solved poses on the body, and how far they are from the positions.
+fn finish(
+    positions: &JointPositions,
+    bones: &SourceBones,
+    poses: &[SolvedPose],
+    body: &BodyRest,
+    soles_on_ground: bool,
+) -> Result<IkSolution, Error> {
+    let frames = positions.positions().as_chunks::<{ Joint::COUNT }>().0;
     let scale = body.leg_length() / bones.leg_length();
     let mut gatherer = FitErrorGatherer::default();
     for (pose, p) in poses.iter().zip(frames) {
@@ -130,8 +164,8 @@ pub fn solve(
         .iter()
         .map(|p| p[0] * scale - body.joints[0])
         .collect();
-    if options.soles_on_ground {
-        let lowest = lowest_sole(&poses, &roots, body);
+    if soles_on_ground {
+        let lowest = lowest_sole(poses, &roots, body);
         for root in &mut roots {
             root.y -= lowest;
         }

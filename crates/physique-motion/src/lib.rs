@@ -4,9 +4,11 @@
 //! at the door and writers convert back.
 
 pub mod amass;
+pub mod arrays;
 mod body_clip;
 pub mod bvh;
 pub mod clip;
+mod content;
 pub mod deep_mimic;
 pub mod embedded;
 pub mod error;
@@ -18,6 +20,7 @@ pub mod limits;
 pub mod mapping;
 pub mod motion;
 pub mod native;
+pub mod position_clip;
 pub mod read;
 mod read_file;
 pub mod recording;
@@ -31,6 +34,10 @@ pub use limits::Limits;
 pub use motion::{Motion, MotionShape, ShapeSpace};
 /// NumPy's archives; they live in their own crate, which bodies share.
 pub use physique_files::npz;
-pub use read::{ReadOptions, SourceMotion, parse_motion, read_motion};
+pub use position_clip::PositionClip;
+pub use read::{
+    NamedMotion, ReadOptions, SourceMotion, parse_motion, parse_motions, read_each, read_motion,
+    read_motions,
+};
 pub use recording::Recording;
 pub use skeleton::{Skeleton, SkeletonJoint, SkeletonPose};

@@ -1,13 +1,17 @@
-//! One door for every format: [`read_motion`] looks at what a file holds, not at its name.
+//! One door for every format: [`read_motions`] looks at what a file holds, not at its name.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 
 use crate::bvh::{self, BvhOptions, LengthUnit, PositionChannels};
+use crate::content::Content;
+use crate::features::FeatureStatistics;
 use crate::npz::{Archive, ArrayLimits};
 use crate::read_file::read_file;
-use crate::{Error, FrameRate, Limits, Recording, SkeletonClip, UpAxis, amass, deep_mimic, native};
+use crate::{
+    Error, FrameRate, Limits, PositionClip, Recording, SkeletonClip, UpAxis, arrays, deep_mimic,
+};
 
 /// What to take for granted where a file is silent or wrong.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,6 +29,8 @@ pub struct ReadOptions {
     /// Rest pelvis of the body that an AMASS file was recorded for, in metres and in the axes of
     /// that body's file; otherwise a mean body's. See [`crate::amass`].
     pub rest_pelvis: Option<Vec3>,
+    /// Mean and deviation of the data set, for features that a file holds normalised.
+    pub statistics: Option<FeatureStatistics>,
 }
 
 /// What a motion file holds.
@@ -34,19 +40,119 @@ pub enum SourceMotion {
     Skeleton(SkeletonClip),
     /// A motion of the body's own 22 joints.
     Body(Recording),
+    /// Joint positions, from which [`crate::inverse_kinematics`] finds rotations.
+    Positions(PositionClip),
 }
 
-/// Reads a motion file of any known format: BVH, AMASS, our own, or DeepMimic's.
+/// A motion of a file that may hold several.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedMotion {
+    /// The file's name; with `#` and its number from 0, or its key, where the file holds several:
+    /// `results.npy#3`.
+    pub name: String,
+    /// What the motion shows, where the file says: the prompt of a generator.
+    pub text: Option<String>,
+    /// What kind of file it comes from, in words: `BVH`, `HumanML3D features`.
+    pub format: &'static str,
+    /// The motion.
+    pub motion: SourceMotion,
+}
+
+/// A motion as the readers of files of many hand it over.
+#[derive(Debug)]
+pub(crate) struct Part {
+    /// What tells it from its neighbours in the file.
+    pub(crate) key: String,
+    pub(crate) text: Option<String>,
+    pub(crate) format: &'static str,
+    /// A broken motion does not keep others of its file from being read.
+    pub(crate) motion: Result<SourceMotion, Error>,
+}
+
+impl Part {
+    /// The only motion of a file.
+    pub(crate) const fn only(format: &'static str, motion: SourceMotion) -> Self {
+        Self {
+            key: String::new(),
+            text: None,
+            format,
+            motion: Ok(motion),
+        }
+    }
+}
+
+/// Reads all motions of a file of any known format; see the table of formats in [`crate::arrays`]
+/// and the modules of this crate.
+///
+/// One of many can be named as [`NamedMotion::name`] does: `results.npy#3`, where no file of this
+/// very name exists.
 ///
 /// # Errors
-/// [`Error::Io`]; [`Error::UnknownFormat`] with what the file looks like; else the errors of the
-/// format's own reader.
-pub fn read_motion(path: impl AsRef<Path>, options: &ReadOptions) -> Result<SourceMotion, Error> {
-    let path = path.as_ref();
-    parse_motion(read_file(path, options.limits.bytes)?, path, options)
+/// [`Error::Io`]; [`Error::UnknownFormat`] with what the file looks like; [`Error::NoSuchMotion`];
+/// else the errors of the format's own reader, for the first motion that is broken.
+pub fn read_motions(
+    path: impl AsRef<Path>,
+    options: &ReadOptions,
+) -> Result<Vec<NamedMotion>, Error> {
+    read_each(path, options)?
+        .into_iter()
+        .map(|(_, motion)| motion)
+        .collect()
 }
 
-/// Reads the bytes of a motion file of any known format; `path` only names it in errors.
+/// As [`read_motions`], but hands each motion over by its name with its own error, so that a
+/// broken one does not hide the others.
+///
+/// # Errors
+/// As [`read_motions`], for what concerns the whole file.
+#[allow(clippy::type_complexity)] // A list of results with their names.
+pub fn read_each(
+    path: impl AsRef<Path>,
+    options: &ReadOptions,
+) -> Result<Vec<(String, Result<NamedMotion, Error>)>, Error> {
+    let path = path.as_ref();
+    let (file, wanted) = one_of_many(path);
+    let parts = parse_parts(read_file(&file, options.limits.bytes)?, &file, options)?;
+    let mut motions = named(parts, &file);
+    if wanted.is_some() {
+        let name = file_name(path);
+        let found = motions.len();
+        motions.retain(|(known, _)| *known == name);
+        if motions.is_empty() {
+            return Err(Error::NoSuchMotion {
+                path: file,
+                name,
+                found,
+            });
+        }
+    }
+    Ok(motions)
+}
+
+/// Reads a file that holds exactly one motion; see [`read_motions`].
+///
+/// # Errors
+/// [`Error::ManyMotions`], and those of [`read_motions`].
+pub fn read_motion(path: impl AsRef<Path>, options: &ReadOptions) -> Result<SourceMotion, Error> {
+    let path = path.as_ref();
+    only(read_motions(path, options)?, path)
+}
+
+/// Reads the bytes of a file of any known format; `path` only names it in errors and motions.
+///
+/// # Errors
+/// As [`read_motions`], without [`Error::Io`].
+pub fn parse_motions(
+    bytes: Vec<u8>,
+    path: impl AsRef<Path>,
+    options: &ReadOptions,
+) -> Result<Vec<NamedMotion>, Error> {
+    let path = path.as_ref();
+    let motions = named(parse_parts(bytes, path, options)?, path);
+    motions.into_iter().map(|(_, motion)| motion).collect()
+}
+
+/// Reads the bytes of a file that holds exactly one motion; `path` only names it in errors.
 ///
 /// # Errors
 /// As [`read_motion`], without [`Error::Io`].
@@ -56,26 +162,13 @@ pub fn parse_motion(
     options: &ReadOptions,
 ) -> Result<SourceMotion, Error> {
     let path = path.as_ref();
-    let unknown = |looks_like: String| Error::UnknownFormat {
-        path: path.into(),
-        looks_like,
-    };
+    only(parse_motions(bytes, path, options)?, path)
+}
+
+fn parse_parts(bytes: Vec<u8>, path: &Path, options: &ReadOptions) -> Result<Vec<Part>, Error> {
     match Content::of(&bytes) {
-        Content::Zip => {
-            let mut archive = open_archive(bytes, path, options)?;
-            if archive.contains(native::MARK) {
-                native::from_archive(&mut archive, path, options).map(SourceMotion::Body)
-            } else if ["poses", "pose_body"]
-                .iter()
-                .any(|key| archive.contains(key))
-            {
-                amass::from_archive(&mut archive, path, options).map(SourceMotion::Body)
-            } else {
-                let keys = archive.keys();
-                let shown = keys[..keys.len().min(12)].join(", ");
-                Err(unknown(format!("an archive of the arrays [{shown}]")))
-            }
-        }
+        Content::Npz => arrays::from_npz(bytes, path, options),
+        Content::Arrays => arrays::from_bytes(bytes, path, options),
         Content::Bvh => {
             let bvh_options = BvhOptions {
                 limits: options.limits,
@@ -84,85 +177,57 @@ pub fn parse_motion(
                 position_channels: options.position_channels,
                 frame_rate: options.frame_rate,
             };
-            bvh::parse(&bytes, path, &bvh_options).map(SourceMotion::Skeleton)
+            let clip = bvh::parse(&bytes, path, &bvh_options)?;
+            Ok(vec![Part::only("BVH", SourceMotion::Skeleton(clip))])
         }
-        Content::DeepMimic => deep_mimic::parse(&bytes, path, options).map(SourceMotion::Skeleton),
-        Content::Other(looks_like) => Err(unknown(looks_like)),
+        Content::DeepMimic => {
+            let clip = deep_mimic::parse(&bytes, path, options)?;
+            Ok(vec![Part::only("DeepMimic", SourceMotion::Skeleton(clip))])
+        }
+        Content::Other(looks_like) => Err(Error::UnknownFormat {
+            path: path.into(),
+            looks_like,
+        }),
     }
 }
 
-/// What the first bytes of a file tell.
-enum Content {
-    Zip,
-    Bvh,
-    DeepMimic,
-    Other(String),
-}
-
-impl Content {
-    fn of(bytes: &[u8]) -> Self {
-        /// Marks of files that people have, but that are not read.
-        const MARKS: [(&[u8], &str); 7] = [
-            (
-                b"\x93NUMPY",
-                "a single NumPy array without names or a frame rate",
-            ),
-            (
-                b"glTF",
-                "a binary glTF model, which is written but not read",
-            ),
-            (b"Kaydara FBX", "Autodesk FBX; Blender converts it to BVH"),
-            (
-                b"\x80",
-                "a Python pickle, which is not opened because it may run code",
-            ),
-            (b"\x1f\x8b", "a gzip file; unpack it first"),
-            (b"\xfd7zXZ", "an xz file; unpack it first"),
-            (b":version", "Acclaim ASF/AMC; convert it to BVH"),
-        ];
-        if Archive::looks_like(bytes) {
-            return Self::Zip;
-        }
-        if bytes.is_empty() {
-            return Self::Other("an empty file".into());
-        }
-        if let Some((_, name)) = MARKS.iter().find(|(mark, _)| bytes.starts_with(mark)) {
-            return Self::Other((*name).into());
-        }
-        let text = after_comments(bytes);
-        let starts_with = |word: &str| {
-            let start = text.get(..word.len());
-            start.is_some_and(|start| start.eq_ignore_ascii_case(word.as_bytes()))
+/// Parts with their full names.
+fn named(parts: Vec<Part>, path: &Path) -> Vec<(String, Result<NamedMotion, Error>)> {
+    let file = file_name(path);
+    let parts = parts.into_iter().map(|part| {
+        let name = match part.key.as_str() {
+            "" => file.clone(),
+            key => format!("{file}#{key}"),
         };
-        if starts_with("HIERARCHY") {
-            return Self::Bvh;
-        }
-        if starts_with("{") {
-            let mentions_frames = text.windows(8).any(|window| window == b"\"Frames\"");
-            return if mentions_frames {
-                Self::DeepMimic
-            } else {
-                Self::Other("JSON without `Frames`".into())
-            };
-        }
-        let start = &text[..text.len().min(24)];
-        Self::Other(format!(
-            "a file that begins with `{}`",
-            start.escape_ascii()
-        ))
+        let motion = part.motion.map(|motion| NamedMotion {
+            name: name.clone(),
+            text: part.text,
+            format: part.format,
+            motion,
+        });
+        (name, motion)
+    });
+    parts.collect()
+}
+
+fn only(mut motions: Vec<NamedMotion>, path: &Path) -> Result<SourceMotion, Error> {
+    match (motions.pop(), motions.len()) {
+        (Some(only), 0) => Ok(only.motion),
+        (last, others) => Err(Error::ManyMotions {
+            path: path.into(),
+            found: others + usize::from(last.is_some()),
+        }),
     }
 }
 
-/// Text behind a byte order mark, blank lines and the `#` and `//` comments that BVH allows.
-fn after_comments(bytes: &[u8]) -> &[u8] {
-    let mut text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    loop {
-        text = text.trim_ascii_start();
-        if !(text.starts_with(b"#") || text.starts_with(b"//")) {
-            return text;
+/// The file, and which of its motions, where `path` is no file but `FILE#KEY`.
+fn one_of_many(path: &Path) -> (PathBuf, Option<String>) {
+    let name = file_name(path);
+    match name.rsplit_once('#') {
+        Some((file, key)) if !file.is_empty() && !path.exists() => {
+            (path.with_file_name(file), Some(key.to_owned()))
         }
-        let line_end = text.iter().position(|&byte| byte == b'\n');
-        text = &text[line_end.unwrap_or(text.len())..];
+        _ => (path.to_owned(), None),
     }
 }
 
@@ -186,4 +251,10 @@ pub(crate) fn open_archive(
 pub(crate) fn stem(path: &Path) -> String {
     path.file_stem()
         .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+}
+
+/// Name of a file without folder.
+pub(crate) fn file_name(path: &Path) -> String {
+    path.file_name()
+        .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }

@@ -20,14 +20,14 @@ fn parse(bytes: impl Into<Vec<u8>>) -> Result<SourceMotion, Error> {
 fn skeleton(source: SourceMotion) -> SkeletonClip {
     match source {
         SourceMotion::Skeleton(clip) => clip,
-        SourceMotion::Body(_) => panic!("a skeleton was expected"),
+        other => panic!("a skeleton was expected, found {other:?}"),
     }
 }
 
 fn body(source: SourceMotion) -> Recording {
     match source {
         SourceMotion::Body(recording) => recording,
-        SourceMotion::Skeleton(_) => panic!("a motion of the body was expected"),
+        other => panic!("a motion of the body was expected, found {other:?}"),
     }
 }
 
@@ -79,8 +79,8 @@ fn a_file_of_no_known_format_is_told_what_it_looks_like() {
         (Vec::new(), "an empty file"),
         (b"glTF\x02\0\0\0".to_vec(), "glTF"),
         (b"Kaydara FBX Binary".to_vec(), "FBX"),
-        (b"\x80\x04\x95".to_vec(), "pickle"),
-        (b"\x93NUMPY\x01\0".to_vec(), "a single NumPy array"),
+        // A pickle of an empty list.
+        (b"\x80\x02].".to_vec(), "a list of 0"),
         (b"{\"poses\": []}".to_vec(), "JSON without `Frames`"),
         (b"hello, world".to_vec(), "begins with `hello, world`"),
         (b"# only a comment".to_vec(), "begins with ``"),
@@ -107,6 +107,7 @@ fn a_given_frame_rate_goes_before_the_files() {
         let frame_rate = match parse_motion(bytes, "a", &options).unwrap() {
             SourceMotion::Skeleton(clip) => clip.frame_rate(),
             SourceMotion::Body(recording) => recording.motion.frame_rate(),
+            SourceMotion::Positions(clip) => clip.positions.frame_rate(),
         };
         assert_eq!(frame_rate.per_second(), 24.0);
     }

@@ -7,6 +7,7 @@
 use std::time::Instant;
 
 use physique_body::{Body, Sex, open_body};
+use physique_motion::inverse_kinematics::{IkOptions, solve};
 use physique_motion::mapping::{BodyRest, MappingOptions, map_to_body};
 use physique_motion::{FrameRate, Motion, ReadOptions, SourceMotion, embedded, read_motion};
 use physique_physics::protocol::resampled;
@@ -46,6 +47,10 @@ fn main() -> Result<(), Failure> {
                 map_to_body(&clip, &BodyRest::from(&body), &MappingOptions::default())?.motion
             }
             SourceMotion::Body(recording) => recording.motion,
+            SourceMotion::Positions(clip) => {
+                let body = BodyRest::from(&body);
+                solve(&clip.positions, &body, &IkOptions::default())?.motion
+            }
         };
         print(&physics, name, &motion)?;
     }

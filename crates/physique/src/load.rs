@@ -1,10 +1,16 @@
-//! From a file of any supported format to a motion of a given body.
+//! From a file of any supported format to motions of a given body.
 
 use std::path::Path;
 
 use physique_body::{Body, Joint};
-use physique_motion::mapping::{BodyRest, Mapped, MappingOptions, MappingReport, map_to_body};
-use physique_motion::{Motion, ReadOptions, Recording, SkeletonClip, SourceMotion, read_motion};
+use physique_motion::inverse_kinematics::{IkOptions, IkSolution, solve, solve_by_paper_layer};
+use physique_motion::mapping::{
+    BodyRest, FitError, Mapped, MappingOptions, MappingReport, map_to_body,
+};
+use physique_motion::{
+    Motion, NamedMotion, PositionClip, ReadOptions, Recording, SkeletonClip, SourceMotion,
+    read_each, read_motions,
+};
 
 use crate::Error;
 use crate::report::MappingSummary;
@@ -16,44 +22,138 @@ pub struct LoadOptions {
     pub read: ReadOptions,
     /// How foreign skeletons are mapped.
     pub mapping: MappingOptions,
+    /// How motions known by their joints' positions get rotations.
+    pub rotations: RotationsFrom,
+    /// What inverse kinematics takes for granted.
+    pub inverse_kinematics: IkOptions,
+}
+
+/// How joint positions become rotations.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RotationsFrom {
+    /// [`physique_motion::inverse_kinematics`]: joints are met, the pelvis keeps its tilt.
+    #[default]
+    InverseKinematics,
+    /// [`physique_motion::features::RotationLayer`], the self-intersection paper's own layer, for comparison with its
+    /// figures: heading only, no twist, joints are missed by some 10 cm.
+    PaperLayer,
 }
 
 /// A motion of a given body, and how it came about.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loaded {
+    /// The file's name, with `#` and a number or key where it holds several: `results.npy#3`.
+    pub name: String,
+    /// What the motion shows, where the file says: the prompt of a generator.
+    pub text: Option<String>,
     /// The motion on the body's 22 joints.
     pub motion: Motion,
-    /// How a foreign skeleton was mapped; `None` for motions of a body.
+    /// How a foreign skeleton was mapped; `None` for motions of a body or of positions.
     pub mapping: Option<MappingReport>,
+    /// How rotations were found from joint positions; `None` for files that hold rotations.
+    pub inverse_kinematics: Option<PositionFit>,
     /// What was converted, guessed or left out: full sentences.
     pub notes: Vec<String>,
 }
 
+/// How well rotations found from positions meet them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PositionFit {
+    /// By which way, in words.
+    pub method: &'static str,
+    /// Distances of the posed joints from the positions, in centimetres of the body.
+    pub fit: FitError,
+    /// From the positions' unit to the body's metres.
+    pub scale: f32,
+}
+
 impl Loaded {
-    /// The mapping in a few figures.
+    /// The mapping or the inverse kinematics in a few figures; `None` for motions of a body.
     pub fn mapping_summary(&self) -> Option<MappingSummary> {
-        self.mapping.as_ref().map(|report| {
-            let error = report.fit_error.all;
-            MappingSummary {
-                skeleton: report.found_by.to_string(),
-                mean_error_cm: f64::from(error.mean_cm),
-                p95_error_cm: f64::from(error.percentile_95_cm),
-                worst_error_cm: f64::from(error.max_cm),
-            }
+        let (skeleton, fit) = match (&self.mapping, &self.inverse_kinematics) {
+            (Some(report), _) => (report.found_by.to_string(), &report.fit_error),
+            (None, Some(found)) => (found.method.to_owned(), &found.fit),
+            (None, None) => return None,
+        };
+        Some(MappingSummary {
+            skeleton,
+            mean_error_cm: f64::from(fit.all.mean_cm),
+            p95_error_cm: f64::from(fit.all.percentile_95_cm),
+            worst_error_cm: f64::from(fit.all.max_cm),
         })
     }
 }
 
-/// Reads a motion file and brings it to the body: foreign skeletons are mapped, motions of other
-/// bodies keep their pelvis where it was.
+/// Reads all motions of a file and brings them to the body: foreign skeletons are mapped, motions
+/// of other bodies keep their pelvis where it was, positions get rotations.
 ///
 /// # Errors
-/// [`Error::Motion`] with file and place for what cannot be read or is not human.
+/// [`Error::Motion`] with file and place for what cannot be read or is not human; the first
+/// broken motion is the error of all, where [`load_each`] goes on.
+pub fn load_all(path: &Path, body: &Body, options: &LoadOptions) -> Result<Vec<Loaded>, Error> {
+    let motions = read_motions(path, &options.read)?;
+    let loaded = motions
+        .into_iter()
+        .map(|motion| load_motion(motion, body, options));
+    loaded.collect()
+}
+
+/// As [`load_all`], but every motion comes by its name with its own error.
+///
+/// # Errors
+/// [`Error::Motion`] for a file that cannot be read at all.
+#[allow(clippy::type_complexity)] // A list of results with their names.
+pub fn load_each(
+    path: &Path,
+    body: &Body,
+    options: &LoadOptions,
+) -> Result<Vec<(String, Result<Loaded, Error>)>, Error> {
+    let motions = read_each(path, &options.read)?.into_iter();
+    let loaded = motions.map(|(name, motion)| {
+        let loaded = motion.map_err(Error::from);
+        (
+            name,
+            loaded.and_then(|motion| load_motion(motion, body, options)),
+        )
+    });
+    Ok(loaded.collect())
+}
+
+/// Reads a file that holds exactly one motion, or one of many by its number (`results.npy#3`), and
+/// brings it to the body.
+///
+/// # Errors
+/// As [`load_all`]; a file of several is an error that says how to name one.
 pub fn load(path: &Path, body: &Body, options: &LoadOptions) -> Result<Loaded, Error> {
-    match read_motion(path, &options.read)? {
-        SourceMotion::Skeleton(clip) => load_clip(&clip, body, options),
-        SourceMotion::Body(recording) => load_recording(recording, body),
+    let mut loaded = load_all(path, body, options)?;
+    match (loaded.pop(), loaded.len()) {
+        (Some(only), 0) => Ok(only),
+        (last, others) => Err(Error::from(physique_motion::Error::ManyMotions {
+            path: path.into(),
+            found: others + usize::from(last.is_some()),
+        })),
     }
+}
+
+/// Brings a motion of any kind to the body.
+///
+/// # Errors
+/// [`Error::Motion`] for a skeleton that is not human or positions without bones.
+pub fn load_motion(
+    motion: NamedMotion,
+    body: &Body,
+    options: &LoadOptions,
+) -> Result<Loaded, Error> {
+    let loaded = match motion.motion {
+        SourceMotion::Skeleton(clip) => load_clip(&clip, body, options)?,
+        SourceMotion::Body(recording) => load_recording(recording, body)?,
+        SourceMotion::Positions(clip) => load_positions(&clip, body, options)?,
+    };
+    Ok(Loaded {
+        name: motion.name,
+        text: motion.text,
+        ..loaded
+    })
 }
 
 /// Maps a clip of any humanoid skeleton to the body.
@@ -63,9 +163,12 @@ pub fn load(path: &Path, body: &Body, options: &LoadOptions) -> Result<Loaded, E
 pub fn load_clip(clip: &SkeletonClip, body: &Body, options: &LoadOptions) -> Result<Loaded, Error> {
     let Mapped { motion, report } = map_to_body(clip, &BodyRest::from(body), &options.mapping)?;
     Ok(Loaded {
+        name: String::new(),
+        text: None,
         motion,
         notes: report.notes.clone(),
         mapping: Some(report),
+        inverse_kinematics: None,
     })
 }
 
@@ -89,8 +192,43 @@ pub fn load_recording(recording: Recording, body: &Body) -> Result<Loaded, Error
         motion.rotations().to_vec(),
     )?;
     Ok(Loaded {
+        name: recording.name,
+        text: None,
         motion,
         mapping: None,
+        inverse_kinematics: None,
         notes: recording.notes,
+    })
+}
+
+/// Finds the body's rotations from joint positions.
+///
+/// # Errors
+/// [`Error::Motion`] for a bone that has no length in most frames.
+pub fn load_positions(
+    clip: &PositionClip,
+    body: &Body,
+    options: &LoadOptions,
+) -> Result<Loaded, Error> {
+    let rest = BodyRest::from(body);
+    let ik = &options.inverse_kinematics;
+    let (method, solution) = match options.rotations {
+        RotationsFrom::InverseKinematics => {
+            let solution = solve(&clip.positions, &rest, ik)?;
+            ("joint positions, by inverse kinematics", solution)
+        }
+        RotationsFrom::PaperLayer => {
+            let solution = solve_by_paper_layer(&clip.positions, &rest, ik.soles_on_ground)?;
+            ("joint positions, by the paper's layer", solution)
+        }
+    };
+    let IkSolution { motion, fit, scale } = solution;
+    Ok(Loaded {
+        name: String::new(),
+        text: None,
+        motion,
+        mapping: None,
+        inverse_kinematics: Some(PositionFit { method, fit, scale }),
+        notes: clip.notes.clone(),
     })
 }

@@ -1,6 +1,6 @@
 //! One frame on its way: world rotations, and where they put the joints.
 
-use glam::{Quat, Vec3};
+use glam::{DMat3, DQuat, Quat, Vec3};
 use physique_body::Joint::{
     self, Head, LeftCollar, LeftHip, LeftShoulder, Neck, Pelvis, RightCollar, RightHip,
     RightShoulder, Spine1, Spine2, Spine3,
@@ -57,6 +57,25 @@ impl SolvedPose {
             pose.put(bones, next);
         }
         pose.world[Head.index()] = pose.world[Neck.index()];
+        pose
+    }
+
+    /// The pose of local rotations that were found elsewhere.
+    pub(super) fn of_rotations(
+        bones: &SourceBones,
+        root: Vec3,
+        local: &[DMat3; Joint::COUNT],
+    ) -> Self {
+        let mut pose = Self {
+            world: [Quat::IDENTITY; Joint::COUNT],
+            positions: [root; Joint::COUNT],
+        };
+        for joint in Joint::ALL {
+            let above = joint.parent().map(|parent| pose.world[parent.index()]);
+            let turn = DQuat::from_mat3(&local[joint.index()]).as_quat();
+            pose.world[joint.index()] = (above.unwrap_or_default() * turn).normalize();
+            pose.put(bones, joint);
+        }
         pose
     }
 

@@ -16,8 +16,18 @@ pub(super) struct SourceBones {
 }
 
 impl SourceBones {
-    /// Takes the median length of each bone over the clip: generated motions stretch their bones.
+    /// Measures lengths, and the bones of pelvis and chest.
     pub(super) fn measure(
+        positions: &JointPositions,
+        directions: &[Vec3; Joint::COUNT],
+    ) -> Result<Self, Error> {
+        let mut bones = Self::at_rest(positions, directions)?;
+        bones.adapt_to(positions);
+        Ok(bones)
+    }
+
+    /// Takes the median length of each bone over the clip: generated motions stretch their bones.
+    pub(super) fn at_rest(
         positions: &JointPositions,
         directions: &[Vec3; Joint::COUNT],
     ) -> Result<Self, Error> {
@@ -41,9 +51,7 @@ impl SourceBones {
             }
             offsets[joint.index()] = directions[joint.index()] * median;
         }
-        let mut bones = Self { offsets };
-        bones.adapt_to(positions);
-        Ok(bones)
+        Ok(Self { offsets })
     }
 
     /// Gives the bones of pelvis and chest the angles between them that they have in the clip: hip

@@ -1,0 +1,193 @@
+//! Features and joint positions in arrays, whatever the order of their axes.
+
+use glam::Vec3;
+
+use super::Context;
+use crate::features::{FeatureSkeleton, JointPositions, MotionFeatures, recover_from_positions};
+use crate::npz::Array;
+use crate::read::Part;
+use crate::{Error, FrameRate, PositionClip, SourceMotion};
+
+/// What an array of motions holds, by its shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Axes {
+    pub(super) skeleton: FeatureSkeleton,
+    is_features: bool,
+    /// Number of motions, where the first axis counts them.
+    pub(super) motions: Option<usize>,
+    pub(super) frames: usize,
+    frames_last: bool,
+}
+
+impl Axes {
+    /// Frames come before the numbers of a frame, or, as in PyTorch's convolutions, after them.
+    pub(super) fn of(shape: &[usize]) -> Option<Self> {
+        FeatureSkeleton::ALL.into_iter().find_map(|skeleton| {
+            let (width, joints) = (skeleton.feature_count(), skeleton.joint_count());
+            let axes = |is_features, motions, frames, frames_last| {
+                Some(Self {
+                    skeleton,
+                    is_features,
+                    motions,
+                    frames,
+                    frames_last,
+                })
+            };
+            match *shape {
+                [frames, w] if w == width => axes(true, None, frames, false),
+                [motions, frames, w] if w == width => axes(true, Some(motions), frames, false),
+                [w, 1, frames] if w == width => axes(true, None, frames, true),
+                [motions, w, 1, frames] if w == width => axes(true, Some(motions), frames, true),
+                [frames, j, 3] if j == joints => axes(false, None, frames, false),
+                [motions, frames, j, 3] if j == joints => axes(false, Some(motions), frames, false),
+                [j, 3, frames] if j == joints => axes(false, None, frames, true),
+                [motions, j, 3, frames] if j == joints => axes(false, Some(motions), frames, true),
+                _ => None,
+            }
+        })
+    }
+
+    pub(super) const fn format(&self) -> &'static str {
+        match (self.skeleton, self.is_features) {
+            (FeatureSkeleton::HumanMl3d, true) => "HumanML3D features",
+            (FeatureSkeleton::HumanMl3d, false) => "HumanML3D joint positions",
+            (FeatureSkeleton::Kit, true) => "KIT-ML features",
+            (FeatureSkeleton::Kit, false) => "KIT-ML joint positions",
+        }
+    }
+
+    /// Numbers of a frame.
+    const fn width(&self) -> usize {
+        if self.is_features {
+            self.skeleton.feature_count()
+        } else {
+            3 * self.skeleton.joint_count()
+        }
+    }
+
+    /// The first `frames` frames of a motion, in the order `[frames][numbers]`.
+    fn rows(&self, values: &[f32], motion: usize, frames: usize) -> Vec<f32> {
+        let width = self.width();
+        let motion = &values[motion * self.frames * width..][..self.frames * width];
+        if !self.frames_last {
+            return motion[..frames * width].to_vec();
+        }
+        let rows = (0..frames).flat_map(|frame| {
+            let columns = motion.iter().skip(frame).step_by(self.frames);
+            columns.copied()
+        });
+        rows.collect()
+    }
+}
+
+/// Motions of an array without a dictionary around it.
+pub(super) fn read(context: &Context<'_>, array: &Array) -> Result<Vec<Part>, Error> {
+    let Some(axes) = Axes::of(array.shape()) else {
+        let expected = "[frames][263], [frames][251], [frames][22][3] or [frames][21][3], alone or \
+            behind a number of motions";
+        return Err(context.format("the shape", expected, format!("{:?}", array.shape())));
+    };
+    let values = numbers(context, array)?;
+    let motions = (0..axes.motions.unwrap_or(1)).map(|index| Part {
+        key: axes.motions.map_or(String::new(), |_| index.to_string()),
+        text: None,
+        format: axes.format(),
+        motion: clip(context, &axes, &values, index, axes.frames),
+    });
+    Ok(motions.collect())
+}
+
+/// All numbers of an array.
+pub(super) fn numbers(context: &Context<'_>, array: &Array) -> Result<Vec<f32>, Error> {
+    array.to_f32().map_err(|source| Error::Array {
+        path: context.path.into(),
+        source,
+    })
+}
+
+/// One motion of an array, cut to `frames` frames.
+pub(super) fn clip(
+    context: &Context<'_>,
+    axes: &Axes,
+    values: &[f32],
+    motion: usize,
+    frames: usize,
+) -> Result<SourceMotion, Error> {
+    context.check_frames(frames)?;
+    let rate = match context.options.frame_rate {
+        Some(rate) => rate,
+        None => FrameRate::new(axes.skeleton.frames_per_second())?,
+    };
+    let place = || match axes.motions {
+        Some(_) => format!("motion {motion}"),
+        None => "the array".into(),
+    };
+    let not_a_motion =
+        |error: Error| context.format(place(), "a motion of finite numbers", error.to_string());
+    let rows = axes.rows(values, motion, frames);
+    let mut notes = Vec::new();
+    if context.options.frame_rate.is_none() {
+        notes.push(format!(
+            "The file does not state its frame rate: the data set's {} frames a second were taken.",
+            rate.per_second()
+        ));
+    }
+    let positions = if axes.is_features {
+        notes.push(format!(
+            "Joint positions were recovered from {}.",
+            axes.format()
+        ));
+        let features = MotionFeatures::new(rate, axes.skeleton, rows).map_err(not_a_motion)?;
+        recover_from_positions(&features)
+    } else {
+        let positions = rows.as_chunks().0.iter().copied().map(Vec3::from_array);
+        JointPositions::new(rate, axes.skeleton, positions.collect())
+    };
+    let positions = positions.map_err(not_a_motion)?;
+    Ok(SourceMotion::Positions(PositionClip { positions, notes }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Axes, FeatureSkeleton};
+
+    #[test]
+    fn axes_are_told_by_their_lengths() {
+        let seen = |shape: &[usize]| {
+            Axes::of(shape).map(|axes| (axes.format(), axes.motions, axes.frames, axes.frames_last))
+        };
+        for (shape, expected) in [
+            (&[60, 263][..], ("HumanML3D features", None, 60, false)),
+            (&[3, 60, 251], ("KIT-ML features", Some(3), 60, false)),
+            (
+                &[6, 263, 1, 120],
+                ("HumanML3D features", Some(6), 120, true),
+            ),
+            (&[60, 22, 3], ("HumanML3D joint positions", None, 60, false)),
+            (&[22, 22, 3], ("HumanML3D joint positions", None, 22, false)),
+            (
+                &[6, 21, 3, 75],
+                ("KIT-ML joint positions", Some(6), 75, true),
+            ),
+            (&[22, 3, 60], ("HumanML3D joint positions", None, 60, true)),
+        ] {
+            assert_eq!(seen(shape), Some(expected), "{shape:?}");
+        }
+        for shape in [&[263][..], &[60, 66], &[60, 24, 3], &[2, 3, 60, 22, 3]] {
+            assert_eq!(seen(shape), None, "{shape:?}");
+        }
+    }
+
+    #[test]
+    fn frames_that_come_last_are_brought_to_the_front() {
+        let axes = Axes::of(&[2, 22, 3, 5]);
+        let values: Vec<f32> = (0..2 * 66 * 5).map(|value| value as f32).collect();
+        let rows = axes.map(|axes| axes.rows(&values, 1, 2));
+        let expected = (0..2).flat_map(|frame| (0..66).map(move |n| (330 + 5 * n + frame) as f32));
+        assert_eq!(rows, Some(expected.collect()));
+        assert_eq!(
+            axes.map(|axes| axes.skeleton),
+            Some(FeatureSkeleton::HumanMl3d)
+        );
+    }
+}

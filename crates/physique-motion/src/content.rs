@@ -1,0 +1,84 @@
+//! What a file is, by its first bytes and never by its ending.
+
+use crate::npz::Archive;
+use physique_files::pickle::Pickle;
+use physique_files::torch::TorchFile;
+
+/// Kinds of files that are told apart before any reader is asked.
+pub(crate) enum Content {
+    /// A ZIP archive of NumPy arrays.
+    Npz,
+    /// A NumPy array, a pickle or a PyTorch file.
+    Arrays,
+    Bvh,
+    DeepMimic,
+    /// None that is read; what it looks like.
+    Other(String),
+}
+
+impl Content {
+    pub(crate) fn of(bytes: &[u8]) -> Self {
+        /// Marks of files that people have, but that are not read.
+        const MARKS: [(&[u8], &str); 5] = [
+            (
+                b"glTF",
+                "a binary glTF model, which is written but not read",
+            ),
+            (b"Kaydara FBX", "Autodesk FBX; Blender converts it to BVH"),
+            (b"\x1f\x8b", "a gzip file; unpack it first"),
+            (b"\xfd7zXZ", "an xz file; unpack it first"),
+            (b":version", "Acclaim ASF/AMC; convert it to BVH"),
+        ];
+        if Archive::looks_like(bytes) {
+            // PyTorch's archives name their entries in the open.
+            let is_torch = bytes.windows(8).any(|window| window == b"data.pkl");
+            return if is_torch { Self::Arrays } else { Self::Npz };
+        }
+        if bytes.is_empty() {
+            return Self::Other("an empty file".into());
+        }
+        if let Some((_, name)) = MARKS.iter().find(|(mark, _)| bytes.starts_with(mark)) {
+            return Self::Other((*name).into());
+        }
+        if bytes.starts_with(b"\x93NUMPY") || TorchFile::looks_like_legacy(bytes) {
+            return Self::Arrays;
+        }
+        let text = after_comments(bytes);
+        let starts_with = |word: &str| {
+            let start = text.get(..word.len());
+            start.is_some_and(|start| start.eq_ignore_ascii_case(word.as_bytes()))
+        };
+        if starts_with("HIERARCHY") {
+            return Self::Bvh;
+        }
+        if starts_with("{") {
+            let mentions_frames = text.windows(8).any(|window| window == b"\"Frames\"");
+            return if mentions_frames {
+                Self::DeepMimic
+            } else {
+                Self::Other("JSON without `Frames`".into())
+            };
+        }
+        if Pickle::looks_like(bytes) {
+            return Self::Arrays;
+        }
+        let start = &text[..text.len().min(24)];
+        Self::Other(format!(
+            "a file that begins with `{}`",
+            start.escape_ascii()
+        ))
+    }
+}
+
+/// Text behind a byte order mark, blank lines and the `#` and `//` comments that BVH allows.
+fn after_comments(bytes: &[u8]) -> &[u8] {
+    let mut text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    loop {
+        text = text.trim_ascii_start();
+        if !(text.starts_with(b"#") || text.starts_with(b"//")) {
+            return text;
+        }
+        let line_end = text.iter().position(|&byte| byte == b'\n');
+        text = &text[line_end.unwrap_or(text.len())..];
+    }
+}
