@@ -22,6 +22,7 @@ mod read;
 mod text;
 mod write;
 
-pub use infer::{LengthUnit, PositionChannels};
+pub use crate::unspoken::LengthUnit;
+pub use infer::PositionChannels;
 pub use read::{BvhOptions, parse, read};
 pub use write::{BvhWriteOptions, format_clip, write_clip, write_motion};

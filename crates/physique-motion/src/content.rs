@@ -1,5 +1,6 @@
 //! What a file is, by its first bytes and never by its ending.
 
+use crate::acclaim::{self, AcclaimFile};
 use crate::npz::Archive;
 use physique_files::pickle::Pickle;
 use physique_files::torch::TorchFile;
@@ -11,6 +12,8 @@ pub(crate) enum Content {
     /// A NumPy array, a pickle or a PyTorch file.
     Arrays,
     Bvh,
+    /// The `.amc` of a pair.
+    AcclaimMotion,
     DeepMimic,
     /// None that is read; what it looks like.
     Other(String),
@@ -19,7 +22,7 @@ pub(crate) enum Content {
 impl Content {
     pub(crate) fn of(bytes: &[u8]) -> Self {
         /// Marks of files that people have, but that are not read.
-        const MARKS: [(&[u8], &str); 5] = [
+        const MARKS: [(&[u8], &str); 4] = [
             (
                 b"glTF",
                 "a binary glTF model, which is written but not read",
@@ -27,7 +30,6 @@ impl Content {
             (b"Kaydara FBX", "Autodesk FBX; Blender converts it to BVH"),
             (b"\x1f\x8b", "a gzip file; unpack it first"),
             (b"\xfd7zXZ", "an xz file; unpack it first"),
-            (b":version", "Acclaim ASF/AMC; convert it to BVH"),
         ];
         if Archive::looks_like(bytes) {
             // PyTorch's archives name their entries in the open.
@@ -50,6 +52,14 @@ impl Content {
         };
         if starts_with("HIERARCHY") {
             return Self::Bvh;
+        }
+        match acclaim::looks_like(text) {
+            Some(AcclaimFile::Motion) => return Self::AcclaimMotion,
+            Some(AcclaimFile::Skeleton) => {
+                let hint = "an Acclaim skeleton without motion; give the .amc that goes with it";
+                return Self::Other(hint.into());
+            }
+            None => {}
         }
         if starts_with("{") {
             let mentions_frames = text.windows(8).any(|window| window == b"\"Frames\"");

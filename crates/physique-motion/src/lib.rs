@@ -3,6 +3,7 @@
 //! Inside, lengths are metres, angles radians, axes right-handed with **Y up**; readers convert
 //! at the door and writers convert back.
 
+pub mod acclaim;
 pub mod amass;
 pub mod arrays;
 mod body_clip;
@@ -25,6 +26,7 @@ pub mod read;
 mod read_file;
 pub mod recording;
 pub mod skeleton;
+mod unspoken;
 mod write_file;
 
 pub use clip::{Conversion, SkeletonClip, UpAxis};

@@ -1,5 +1,11 @@
 //! How much a file may ask for before a reader refuses it.
 
+use std::path::Path;
+
+use glam::Quat;
+
+use crate::Error;
+
 /// Upper bounds that every reader checks **before** it allocates.
 ///
 /// The defaults let every published motion through and keep a reader below about 2 GiB. Raise
@@ -25,4 +31,34 @@ impl Default for Limits {
             depth: 128,
         }
     }
+}
+
+impl Limits {
+    /// Refuses a clip whose rotations alone take more memory than the limit.
+    pub(crate) fn check_rotations(
+        &self,
+        path: &Path,
+        frames: usize,
+        joints: usize,
+    ) -> Result<(), Error> {
+        let found = (frames as u64)
+            .saturating_mul(joints as u64)
+            .saturating_mul(size_of::<Quat>() as u64);
+        let what = "the size of frames x joints rotations in bytes";
+        check(path, what, found, self.bytes)
+    }
+}
+
+/// Refuses what is `found` above its limit.
+pub(crate) fn check(path: &Path, what: &'static str, found: u64, limit: u64) -> Result<(), Error> {
+    if found <= limit {
+        return Ok(());
+    }
+    let path = path.into();
+    Err(Error::Limit {
+        path,
+        what,
+        found,
+        limit,
+    })
 }

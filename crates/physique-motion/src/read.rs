@@ -10,7 +10,8 @@ use crate::features::FeatureStatistics;
 use crate::npz::{Archive, ArrayLimits};
 use crate::read_file::read_file;
 use crate::{
-    Error, FrameRate, Limits, PositionClip, Recording, SkeletonClip, UpAxis, arrays, deep_mimic,
+    Error, FrameRate, Limits, PositionClip, Recording, SkeletonClip, UpAxis, acclaim, arrays,
+    deep_mimic,
 };
 
 /// What to take for granted where a file is silent or wrong.
@@ -20,9 +21,9 @@ pub struct ReadOptions {
     pub limits: Limits,
     /// Taken instead of what the file says; needed for files that state no frame rate.
     pub frame_rate: Option<FrameRate>,
-    /// The file's up axis; otherwise inferred for BVH, and Z for AMASS by its definition.
+    /// The file's up axis; otherwise inferred for BVH and AMC, and Z for AMASS by its definition.
     pub up_axis: Option<UpAxis>,
-    /// A BVH file's length unit; otherwise inferred.
+    /// The length unit of a BVH or ASF file; otherwise inferred.
     pub unit: Option<LengthUnit>,
     /// What a BVH file's position channels do to a joint's offset; otherwise inferred.
     pub position_channels: Option<PositionChannels>,
@@ -31,6 +32,9 @@ pub struct ReadOptions {
     pub rest_pelvis: Option<Vec3>,
     /// Mean and deviation of the data set, for features that a file holds normalised.
     pub statistics: Option<FeatureStatistics>,
+    /// The `.asf` of an `.amc`; otherwise looked for beside it, see
+    /// [`crate::acclaim::find_skeleton`].
+    pub skeleton: Option<PathBuf>,
 }
 
 /// What a motion file holds.
@@ -138,7 +142,8 @@ pub fn read_motion(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Sour
     only(read_motions(path, options)?, path)
 }
 
-/// Reads the bytes of a file of any known format; `path` only names it in errors and motions.
+/// Reads the bytes of a file of any known format; `path` names it in errors and motions, and files
+/// that belong to it (the skeleton of an `.amc`) are looked for beside it.
 ///
 /// # Errors
 /// As [`read_motions`], without [`Error::Io`].
@@ -152,7 +157,7 @@ pub fn parse_motions(
     motions.into_iter().map(|(_, motion)| motion).collect()
 }
 
-/// Reads the bytes of a file that holds exactly one motion; `path` only names it in errors.
+/// Reads the bytes of a file that holds exactly one motion; see [`parse_motions`].
 ///
 /// # Errors
 /// As [`read_motion`], without [`Error::Io`].
@@ -179,6 +184,10 @@ fn parse_parts(bytes: Vec<u8>, path: &Path, options: &ReadOptions) -> Result<Vec
             };
             let clip = bvh::parse(&bytes, path, &bvh_options)?;
             Ok(vec![Part::only("BVH", SourceMotion::Skeleton(clip))])
+        }
+        Content::AcclaimMotion => {
+            let clip = acclaim::parse_beside(&bytes, path, options)?;
+            Ok(vec![Part::only("ASF/AMC", SourceMotion::Skeleton(clip))])
         }
         Content::DeepMimic => {
             let clip = deep_mimic::parse(&bytes, path, options)?;

@@ -1,6 +1,6 @@
 //! From the file's text to a clip in metres with Y up.
 
-use std::{fs::File, io::Read as _, path::Path};
+use std::path::Path;
 
 use glam::{Quat, Vec3};
 
@@ -9,12 +9,12 @@ use super::{
     frames::BvhFrames,
     hierarchy,
     hierarchy::BvhJoint,
-    infer::{self, LengthUnit, PositionChannels},
+    infer::{self, PositionChannels},
     text::Text,
 };
-use crate::{
-    Conversion, Error, FrameRate, Limits, Skeleton, SkeletonClip, SkeletonJoint, UpAxis, mapping,
-};
+use crate::read_file::read_file;
+use crate::unspoken::{self, Bone, LengthUnit};
+use crate::{Conversion, Error, FrameRate, Limits, Skeleton, SkeletonClip, SkeletonJoint, UpAxis};
 
 /// What to take for granted instead of inferring it; see [`crate::bvh`].
 #[derive(Clone, Debug, Default)]
@@ -38,30 +38,7 @@ pub struct BvhOptions {
 /// joint and channel.
 pub fn read(path: impl AsRef<Path>, options: &BvhOptions) -> Result<SkeletonClip, Error> {
     let path = path.as_ref();
-    let io = |source| Error::Io {
-        path: path.into(),
-        source,
-    };
-    let file = File::open(path).map_err(io)?;
-    let length = file.metadata().map_err(io)?.len();
-    let limit = options.limits.bytes;
-    let mut bytes = Vec::new();
-    if length <= limit {
-        // A pipe has no length beforehand, so the limit holds while reading, too.
-        file.take(limit.saturating_add(1))
-            .read_to_end(&mut bytes)
-            .map_err(io)?;
-    }
-    let found = length.max(bytes.len() as u64);
-    if found > limit {
-        return Err(Error::Limit {
-            path: path.into(),
-            what: "the size in bytes",
-            found,
-            limit,
-        });
-    }
-    parse(&bytes, path, options)
+    parse(&read_file(path, options.limits.bytes)?, path, options)
 }
 
 /// Reads the text of a BVH file; `path` only names it in errors.
@@ -77,17 +54,9 @@ pub fn parse(
     let mut text = Text::new(path, bytes);
     let joints = hierarchy::parse(&mut text, &options.limits)?;
     let frames = frames::parse(&mut text, &joints, options.frame_rate, &options.limits)?;
-    let clip_bytes = (frames.frame_count as u64)
-        .saturating_mul(joints.len() as u64)
-        .saturating_mul(size_of::<Quat>() as u64);
-    if clip_bytes > options.limits.bytes {
-        return Err(Error::Limit {
-            path: path.into(),
-            what: "the size of frames x joints rotations in bytes",
-            found: clip_bytes,
-            limit: options.limits.bytes,
-        });
-    }
+    options
+        .limits
+        .check_rotations(path, frames.frame_count, joints.len())?;
     resolve(&joints, &frames, options)
 }
 
@@ -118,8 +87,7 @@ fn resolve(
     let mut meaning = stated.unwrap_or(PositionChannels::Add);
     let unit = options.unit.unwrap_or_else(|| {
         let first = (frames.frame_count > 0).then(|| frames.frame(0));
-        let bone = |joint: usize| translation(&joints[joint], first, meaning).length();
-        let (unit, note) = infer::unit(infer::tip_to_tip(joints, bone));
+        let (unit, note) = unspoken::unit(unspoken::tip_to_tip(&bones(joints, first, meaning)));
         notes.push(note);
         unit
     });
@@ -128,15 +96,9 @@ fn resolve(
     let mut clip = clip(&skeleton, joints, frames, meaning, metres)?;
 
     let up_axis = options.up_axis.unwrap_or_else(|| {
-        let human = mapping::find_joints(&skeleton).map(|found| found.joints);
-        match human.map(|human| infer::up_axis(&clip, &human)) {
-            Some(UpAxis::Z) => {
-                notes
-                    .push("up axis: Z, since the shoulders stand above the ankles along it".into());
-                UpAxis::Z
-            }
-            _ => UpAxis::Y,
-        }
+        let (up_axis, note) = unspoken::up_axis(&clip);
+        notes.extend(note);
+        up_axis
     });
     if stated.is_none() && moved_roots {
         let offset = joints[0].offset * metres;
@@ -157,6 +119,20 @@ fn resolve(
         notes,
     };
     clip.turned_upright(conversion)
+}
+
+/// Lengths in the file's unit, in its first frame.
+fn bones(joints: &[BvhJoint], first: Option<&[f32]>, meaning: PositionChannels) -> Vec<Bone> {
+    let longest = |sites: &[Vec3]| sites.iter().map(|site| site.length()).fold(0.0, f32::max);
+    joints
+        .iter()
+        .map(|joint| Bone {
+            parent: joint.parent,
+            length: translation(joint, first, meaning).length(),
+            tips: joint.end_sites.len(),
+            longest_tip: longest(&joint.end_sites),
+        })
+        .collect()
 }
 
 fn skeleton(joints: &[BvhJoint], metres: f32) -> Result<Skeleton, Error> {

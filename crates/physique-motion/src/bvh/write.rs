@@ -4,10 +4,8 @@ use std::{fmt::Write as _, path::Path};
 
 use glam::{DQuat, EulerRot, Quat, Vec3};
 
-use super::{
-    channel::{Axis, Channel},
-    infer::LengthUnit,
-};
+use super::channel::{Axis, Channel};
+use crate::unspoken::LengthUnit;
 use crate::{Error, Motion, SkeletonClip, mapping::BodyRest, write_file::write_file};
 
 /// How to write a clip.
