@@ -40,4 +40,30 @@ pub enum Error {
         /// Elements given.
         found: usize,
     },
+    /// A tolerance that is no number.
+    #[error("Tolerance: expected a finite depth, found {found}.")]
+    Tolerance {
+        /// What was given.
+        found: f32,
+    },
+    /// Vector instructions that the processor lacks.
+    #[error("Backend {backend}: this processor does not have it.")]
+    Backend {
+        /// What was asked for.
+        backend: crate::Backend,
+    },
+    /// A rotation that is no number.
+    #[error("Frame {frame}: expected a finite rotation of {joint}, found NaN or infinity.")]
+    NotFinite {
+        /// Index of the frame.
+        frame: usize,
+        /// The joint.
+        joint: physique_body::Joint,
+    },
+    /// Rotations whose products leave the range of numbers.
+    #[error("Frame {frame}: the posed spheres are too far away to be numbers.")]
+    Overflow {
+        /// Index of the frame.
+        frame: usize,
+    },
 }

@@ -3,15 +3,22 @@
 //!
 //! After "Self-intersection-aware motion generation" (BMVC 2025, arXiv 2605.26744).
 
+mod engine;
 pub mod error;
+mod kernel;
+pub mod lanes;
 pub mod pairs;
 pub mod penalty;
+mod plan;
 pub mod pose_matrices;
 pub mod reference;
+pub mod self_intersection;
 pub mod sphere_body;
 
 pub use error::Error;
+pub use lanes::Backend;
 pub use pairs::Pairs;
 pub use penalty::Penalty;
 pub use pose_matrices::{PoseMatrices, pose_matrices};
+pub use self_intersection::{SelfIntersection, SelfIntersectionOptions};
 pub use sphere_body::SphereBody;

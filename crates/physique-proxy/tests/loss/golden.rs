@@ -37,10 +37,8 @@ impl Golden {
         let rows = weights.as_chunks::<{ Joint::COUNT }>().0.iter().map(|row| {
             let mut entries = [(0, 0.0); 4];
             let used = row.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
-            let mut place = 0;
-            for (joint, &weight) in used {
-                entries[place] = (joint as u8, weight);
-                place += 1;
+            for (entry, (joint, &weight)) in entries.iter_mut().zip(used) {
+                *entry = (joint as u8, weight);
             }
             entries
         });

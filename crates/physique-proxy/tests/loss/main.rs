@@ -1,5 +1,7 @@
 //! Posing and losses, through the crate's public face.
 
+mod crude;
+mod fused;
 mod golden;
 mod reference;
 mod support;

@@ -1,0 +1,172 @@
+//! The self-intersection loss of a sphere body, with its gradient, at full speed.
+
+use std::fmt;
+
+use physique_body::Joint;
+
+use crate::engine::{Build, Engine, Request};
+use crate::kernel::TileGradient;
+use crate::plan::Plan;
+use crate::{Backend, Error, Pairs, Penalty, PoseMatrices, SphereBody};
+
+/// How the loss is measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SelfIntersectionOptions {
+    /// Cost of two spheres' overlap.
+    pub penalty: Penalty,
+    /// Depth that is free, in the body's unit.
+    pub tolerance: f32,
+    /// Vector instructions to use; the best that the processor has where `None`.
+    pub backend: Option<Backend>,
+}
+
+impl Default for SelfIntersectionOptions {
+    fn default() -> Self {
+        Self {
+            penalty: Penalty::Squared,
+            tolerance: 0.0,
+            backend: None,
+        }
+    }
+}
+
+/// The self-intersection loss of one sphere body: equation 7 of the paper, frame by frame,
+/// `sum over pairs of max(0, r_i + r_j - |c_i - c_j| - tolerance)^2` of the posed centres.
+///
+/// Kinematics, skinning, the search for touching spheres and the whole way back run as one fused
+/// kernel over tiles of 4 to 16 frames; see [`Backend`]. Only pairs whose distance can matter are
+/// measured, and none that touches is missed. Memory beyond inputs and outputs: some 200 kB a thread,
+/// whatever the number of frames. The result is the same, to the bit, for any number of threads of
+/// one backend.
+pub struct SelfIntersection {
+    engine: Box<dyn Engine>,
+    backend: Backend,
+    options: SelfIntersectionOptions,
+}
+
+impl SelfIntersection {
+    /// Prepares the loss; some 0.1 ms for 192 spheres.
+    ///
+    /// # Errors
+    /// As [`SelfIntersection::with_options`].
+    pub fn new(body: &SphereBody, pairs: &Pairs) -> Result<Self, Error> {
+        Self::with_options(body, pairs, &SelfIntersectionOptions::default())
+    }
+
+    /// Prepares the loss.
+    ///
+    /// # Errors
+    /// As [`SphereBody::check`]; [`Error::PairCount`] for pairs of another number of spheres;
+    /// [`Error::Tolerance`] unless the tolerance is finite; [`Error::Backend`] for one that this
+    /// processor lacks.
+    pub fn with_options(
+        body: &SphereBody,
+        pairs: &Pairs,
+        options: &SelfIntersectionOptions,
+    ) -> Result<Self, Error> {
+        body.check()?;
+        if pairs.sphere_count() != body.sphere_count() {
+            return Err(Error::PairCount {
+                expected: body.sphere_count(),
+                found: pairs.sphere_count(),
+            });
+        }
+        if !options.tolerance.is_finite() {
+            return Err(Error::Tolerance {
+                found: options.tolerance,
+            });
+        }
+        let backend = options.backend.unwrap_or_else(Backend::best);
+        let build = Build {
+            plan: Plan::new(body, pairs, options.tolerance),
+            penalty: options.penalty,
+        };
+        let engine = backend.dispatch(build).ok_or(Error::Backend { backend })?;
+        Ok(Self {
+            engine,
+            backend,
+            options: *options,
+        })
+    }
+
+    /// The vector instructions in use.
+    pub fn backend(&self) -> Backend {
+        self.backend
+    }
+
+    /// The loss of every frame, into `losses`.
+    ///
+    /// # Errors
+    /// [`Error::Length`] unless there is one loss a frame; [`Error::NotFinite`] or
+    /// [`Error::Overflow`] for rotations that are no numbers, or too large, after which the
+    /// outputs mean nothing.
+    pub fn losses(&self, poses: &[PoseMatrices], losses: &mut [f32]) -> Result<(), Error> {
+        check_length("Losses", poses, losses.len())?;
+        let found = self.engine.evaluate(Request {
+            poses,
+            losses,
+            gradient: None,
+        });
+        refuse(poses, found)
+    }
+
+    /// The loss of every frame, and the gradient of `sum over frames of weight * loss` by the
+    /// entries of the rotation matrices, into `losses` and `by_poses`.
+    ///
+    /// `weights` are the derivatives of what is trained by each frame's loss: `1 / frames` each
+    /// for a mean, 0 for padding.
+    ///
+    /// # Errors
+    /// As [`SelfIntersection::losses`].
+    pub fn gradient(
+        &self,
+        poses: &[PoseMatrices],
+        weights: &[f32],
+        losses: &mut [f32],
+        by_poses: &mut [PoseMatrices],
+    ) -> Result<(), Error> {
+        check_length("Losses", poses, losses.len())?;
+        check_length("Weights", poses, weights.len())?;
+        check_length("Gradient", poses, by_poses.len())?;
+        let found = self.engine.evaluate(Request {
+            poses,
+            losses,
+            gradient: Some(TileGradient { weights, by_poses }),
+        });
+        refuse(poses, found)
+    }
+}
+
+impl fmt::Debug for SelfIntersection {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("SelfIntersection")
+            .field("backend", &self.backend)
+            .field("options", &self.options)
+            .finish_non_exhaustive()
+    }
+}
+
+fn check_length(what: &'static str, poses: &[PoseMatrices], found: usize) -> Result<(), Error> {
+    if found == poses.len() {
+        return Ok(());
+    }
+    Err(Error::Length {
+        what,
+        expected: poses.len(),
+        found,
+    })
+}
+
+/// Names the frame whose loss is not finite, and the joint where that began.
+fn refuse(poses: &[PoseMatrices], frame: Option<usize>) -> Result<(), Error> {
+    let Some(frame) = frame else {
+        return Ok(());
+    };
+    let finite = |matrix: &[f32; 9]| matrix.iter().all(|number| number.is_finite());
+    let joint = poses[frame].iter().position(|matrix| !finite(matrix));
+    Err(match joint.and_then(Joint::from_index) {
+        Some(joint) => Error::NotFinite { frame, joint },
+        None => Error::Overflow { frame },
+    })
+}

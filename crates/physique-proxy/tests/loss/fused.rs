@@ -1,0 +1,143 @@
+//! The fused kernels of every backend against the slow reference.
+
+use physique_proxy::{
+    Backend, Error, Pairs, Penalty, PoseMatrices, SelfIntersection, SelfIntersectionOptions,
+    SphereBody, reference,
+};
+
+use crate::crude;
+use crate::golden::Golden;
+use crate::support::Random;
+
+/// Largest differences of losses and gradients between a backend and the reference.
+fn compare(
+    body: &SphereBody,
+    pairs: &Pairs,
+    options: &SelfIntersectionOptions,
+    poses: &[PoseMatrices],
+) -> (f64, f64) {
+    let loss = SelfIntersection::with_options(body, pairs, options).expect("sound");
+    let weights: Vec<_> = (0..poses.len())
+        .map(|frame| 0.5 + 0.25 * (frame % 4) as f32)
+        .collect();
+    let mut losses = vec![f32::NAN; poses.len()];
+    let mut by_poses = vec![[[f32::NAN; 9]; 22]; poses.len()];
+    loss.gradient(poses, &weights, &mut losses, &mut by_poses)
+        .expect("finite");
+    let mut only_losses = vec![f32::NAN; poses.len()];
+    loss.losses(poses, &mut only_losses).expect("finite");
+    assert_eq!(losses, only_losses);
+    let (mut by_value, mut by_gradient) = (0.0_f64, 0.0_f64);
+    for (frame, pose) in poses.iter().enumerate() {
+        let rotations = reference::rotations(pose);
+        let tolerance = f64::from(options.tolerance);
+        let (value, gradient) =
+            reference::self_intersection(body, pairs, options.penalty, tolerance, &rotations);
+        by_value = by_value.max((f64::from(losses[frame]) - value).abs());
+        for (by, expected) in by_poses[frame].iter().zip(&gradient.rotations) {
+            let expected = expected.transpose().to_cols_array();
+            for (by, expected) in by.iter().zip(expected) {
+                let expected = expected * f64::from(weights[frame]);
+                by_gradient = by_gradient.max((f64::from(*by) - expected).abs());
+            }
+        }
+    }
+    (by_value, by_gradient)
+}
+
+fn options(backend: Backend) -> SelfIntersectionOptions {
+    SelfIntersectionOptions {
+        backend: Some(backend),
+        ..Default::default()
+    }
+}
+
+#[test]
+fn golden_poses() {
+    let mut golden = Golden::open();
+    let (body, pairs, poses) = (golden.body(), golden.pairs(), golden.poses());
+    for backend in Backend::available() {
+        let (value, gradient) = compare(&body, &pairs, &options(backend), &poses);
+        assert!(
+            value < 1e-5 && gradient < 1e-5,
+            "{backend}: {value:e} {gradient:e}"
+        );
+    }
+}
+
+#[test]
+fn real_poses() {
+    let (body, poses) = (crude::body(), crude::real_poses());
+    let pairs = crude::pairs(&body, &poses);
+    assert!(pairs.len() > 10_000, "{}", pairs.len());
+    for backend in Backend::available() {
+        for (penalty, tolerance) in [(Penalty::Squared, 0.0), (Penalty::Linear, 0.005)] {
+            let options = SelfIntersectionOptions {
+                penalty,
+                tolerance,
+                backend: Some(backend),
+            };
+            let (value, gradient) = compare(&body, &pairs, &options, &poses);
+            println!("{backend} {penalty:?}: {value:e} {gradient:e}");
+            assert!(
+                value < 1e-5 && gradient < 1e-5,
+                "{backend}: {value:e} {gradient:e}"
+            );
+        }
+    }
+}
+
+/// Any number of frames, any body, any pairs: tails of tiles, quads and groups.
+#[test]
+fn random_bodies_and_lengths() {
+    let mut random = Random(11);
+    for spheres in [1, 2, 3, 7, 30, 64] {
+        let body = random.body(spheres);
+        let all = Pairs::all(spheres).expect("few");
+        let some = all.filtered(|i, j| (i + 3 * j) % 4 != 0);
+        for frames in [0, 1, 2, 15, 16, 17, 37] {
+            let poses: Vec<_> = (0..frames).map(|_| random.pose(2.5)).collect();
+            for backend in Backend::available() {
+                for pairs in [&all, &some] {
+                    let (value, gradient) = compare(&body, pairs, &options(backend), &poses);
+                    assert!(
+                        value < 1e-5 && gradient < 1e-5,
+                        "{backend} {spheres} {frames}: {value:e} {gradient:e}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn numbers_that_are_none_are_named() {
+    let mut random = Random(5);
+    let body = random.body(40);
+    let pairs = Pairs::all(40).expect("few");
+    for backend in Backend::available() {
+        let loss = SelfIntersection::with_options(&body, &pairs, &options(backend)).expect("sound");
+        for (frame, joint, number) in [
+            (0, 0, f32::NAN),
+            (17, 21, f32::INFINITY),
+            (70, 10, f32::NAN),
+        ] {
+            let mut poses: Vec<_> = (0..75).map(|_| random.pose(1.0)).collect();
+            poses[frame][joint][4] = number;
+            poses[74][3][0] = f32::NAN;
+            let error = loss.losses(&poses, &mut [0.0; 75]).expect_err("not finite");
+            let Error::NotFinite {
+                frame: found,
+                joint: at,
+            } = error
+            else {
+                panic!("{error}");
+            };
+            assert_eq!((found, at.index()), (frame, joint));
+        }
+        let mut poses = [random.pose(1.0); 3];
+        poses[1] = poses[1].map(|matrix| matrix.map(|number| number * 1e15));
+        let error = loss.losses(&poses, &mut [0.0; 3]).expect_err("too large");
+        assert!(matches!(error, Error::Overflow { frame: 1 }), "{error}");
+    }
+}
