@@ -4,7 +4,7 @@
 //!    of the tree, or by a mapping file ([`NameTable`]).
 //! 2. **What its axes mean** ([`AlignedBy`]): for each joint, how it is turned when the body
 //!    would be at rest; from a rest pose in which a person stands, a T-pose in the first frame,
-//!    or the anatomy that the clip shows.
+//!    the one that is known of the rig, or the anatomy that the clip shows.
 //! 3. **Rotations**: the body's joint takes the source's world orientation through that constant;
 //!    limbs point the same way in the world, twist is the source's. A spine of any number of
 //!    joints is resampled.
@@ -21,6 +21,7 @@ mod figure;
 mod find;
 mod fit_error;
 mod human_joints;
+mod known_t_pose;
 mod legs;
 mod name;
 mod name_table;
@@ -45,6 +46,7 @@ pub use name_table::NameTable;
 pub use report::{JointSource, MappingReport};
 
 use crate::{Error, Motion, SkeletonClip};
+use alignment::Alignment;
 use retarget::Retarget;
 
 /// How to map.
@@ -122,7 +124,10 @@ pub fn map_to_body(
     } else {
         t_pose_frames
     };
-    let retarget = Retarget::new(clip, &found.joints, body, t_pose_frames > 0, options)?;
+    let known_t_pose = NameTable::known_t_pose(&found.by, options.table.as_ref());
+    let leads_with_t_pose = t_pose_frames > 0;
+    let alignment = Alignment::find(clip, &found.joints, body, leads_with_t_pose, known_t_pose);
+    let retarget = Retarget::new(clip, &found.joints, body, alignment, options)?;
     let retarget = if is_own {
         retarget.on_ground_of_source()
     } else {

@@ -13,6 +13,7 @@ use super::{
     body_rest::BodyRest,
     figure::{Arms, Figure},
     human_joints::HumanJoints,
+    known_t_pose::KnownTPose,
     reference,
 };
 use crate::{SkeletonClip, SkeletonPose};
@@ -24,7 +25,9 @@ pub enum AlignedBy {
     RestPose,
     /// The first frame is a T-pose.
     FirstFrame,
-    /// Neither: hinges of knees and elbows, soles, shoulders and hips over the clip.
+    /// The T-pose that is known of the family of rigs, or that the mapping file gives.
+    KnownTPose,
+    /// None of these: hinges of knees and elbows, soles, shoulders and hips over the clip.
     Anatomy,
 }
 
@@ -34,10 +37,13 @@ pub(super) struct Alignment {
     /// By source joint; the identity for joints that are no human joint.
     pub(super) joint_from_body: Vec<Quat>,
     pub(super) by: AlignedBy,
+    /// Why a T-pose that is known of the rig was not taken.
+    pub(super) note: Option<String>,
 }
 
 impl Alignment {
-    /// Finds the alignment from the rest pose, a T-pose in the first frame, or the clip.
+    /// Finds the alignment from the rest pose, a T-pose in the first frame, the one that is known
+    /// of the rig, or the clip.
     ///
     /// A first frame counts only where `leads_with_t_pose`: a dancer's arms may be level, too.
     pub(super) fn find(
@@ -45,6 +51,7 @@ impl Alignment {
         human: &HumanJoints,
         body: &BodyRest,
         leads_with_t_pose: bool,
+        known_t_pose: Option<&KnownTPose>,
     ) -> Self {
         let skeleton = clip.skeleton();
         let reference = |pose: &SkeletonPose, arms| {
@@ -56,21 +63,40 @@ impl Alignment {
             let world_from_figure = figure.standing(arms)?;
             Some(reference::joint_from_body(&figure, world_from_figure, body))
         };
+        let found = |joint_from_body, by| Self {
+            joint_from_body,
+            by,
+            note: None,
+        };
         if let Some(joint_from_body) = reference(&skeleton.rest_pose(), Arms::Straight) {
-            return Self {
-                joint_from_body,
-                by: AlignedBy::RestPose,
-            };
+            return found(joint_from_body, AlignedBy::RestPose);
         }
         if leads_with_t_pose && let Some(joint_from_body) = reference(&clip.pose(0), Arms::Level) {
-            return Self {
-                joint_from_body,
-                by: AlignedBy::FirstFrame,
-            };
+            return found(joint_from_body, AlignedBy::FirstFrame);
         }
+        let note = match known_t_pose.map(|known| known.pose(clip, human)) {
+            None => None,
+            Some(Err(joint)) => Some(format!(
+                "the T-pose that is known of this rig was not used: it says nothing of {joint}"
+            )),
+            Some(Ok(pose)) => {
+                if let Some(joint_from_body) = reference(&pose, Arms::Level) {
+                    return found(joint_from_body, AlignedBy::KnownTPose);
+                }
+                // A later generation of the rig, or one that a converter has changed.
+                Some(
+                    "the T-pose that is known of this rig was not used: this skeleton does not \
+                     stand with level arms in it"
+                        .to_owned(),
+                )
+            }
+        };
         Self {
-            joint_from_body: anatomy::joint_from_body(clip, human, body),
-            by: AlignedBy::Anatomy,
+            note,
+            ..found(
+                anatomy::joint_from_body(clip, human, body),
+                AlignedBy::Anatomy,
+            )
         }
     }
 

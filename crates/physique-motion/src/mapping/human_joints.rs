@@ -71,6 +71,15 @@ impl HumanJoints {
         [&self.left, &self.right]
     }
 
+    /// All joints, some more than once where one joint serves as two.
+    pub(super) fn all(&self) -> impl Iterator<Item = usize> + '_ {
+        let chains = self.spine.iter().chain(&self.neck).copied();
+        let single = Joint::ALL
+            .into_iter()
+            .filter_map(|joint| self.source_of(joint));
+        single.chain(chains)
+    }
+
     /// The source joint of a body joint, where one joint is the source. Spine and neck are
     /// resampled from chains instead, so they have none.
     pub const fn source_of(&self, joint: Joint) -> Option<usize> {

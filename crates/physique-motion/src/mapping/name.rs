@@ -1,5 +1,33 @@
 //! Joint names without the habits of exporters.
 
+use crate::Skeleton;
+
+/// The joints of a skeleton by name: letter case, blanks, underscores, namespaces and the
+/// prefixes of common rigs do not matter.
+pub(super) struct NamedJoints<'a> {
+    skeleton: &'a Skeleton,
+    normalised: Vec<String>,
+}
+
+impl<'a> NamedJoints<'a> {
+    pub(super) fn new(skeleton: &'a Skeleton) -> Self {
+        let joints = skeleton.joints().iter();
+        Self {
+            skeleton,
+            normalised: joints.map(|joint| normalised(&joint.name)).collect(),
+        }
+    }
+
+    /// The first joint of that name. Exact spelling goes first: a file may tell "hand" from
+    /// "Hand".
+    pub(super) fn find(&self, name: &str) -> Option<usize> {
+        let wanted = normalised(name);
+        self.skeleton
+            .find(name)
+            .or_else(|| self.normalised.iter().position(|found| *found == wanted))
+    }
+}
+
 /// Prefixes that rigs put before every name, normalised.
 const RIG_PREFIXES: [&str; 8] = [
     "mixamorig",
@@ -14,7 +42,7 @@ const RIG_PREFIXES: [&str; 8] = [
 
 /// A name in lower case without namespace (`rig:Hips`, `Armature|Hips`), blanks, punctuation and
 /// a rig's prefix.
-pub(super) fn normalised(name: &str) -> String {
+fn normalised(name: &str) -> String {
     let plain = name.rsplit([':', '|']).next().unwrap_or(name);
     let mut letters: String = plain
         .chars()

@@ -10,16 +10,24 @@
 //! ```
 //!
 //! Keys are the body's joint names ([`Joint::name`]) except `spine1` to `spine3`, which are the
-//! one chain `spine`.
+//! one chain `spine`. A rig whose zero pose is no human pose may say how its joints are turned in
+//! a T-pose: facing +Z with Y up, as quaternions `(x, y, z, w)`, `world_from_joint`, by the rig's
+//! own names.
+//!
+//! ```toml
+//! [t_pose]
+//! Hips = [0.0, 0.0, 0.0, 1.0]
+//! Thigh_L = [0.0, 0.0, 1.0, 0.0]
+//! ```
 
 use std::{path::Path, sync::LazyLock};
 
 use physique_body::Joint;
 
-use super::{human_joints::Gathered, name::normalised};
+use super::{find::FoundBy, human_joints::Gathered, known_t_pose::KnownTPose, name::NamedJoints};
 use crate::{Error, Skeleton};
 
-/// Names of joints, by what they are.
+/// Names of joints, by what they are, and how they are turned in a T-pose where that is known.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NameTable {
     name: String,
@@ -27,6 +35,7 @@ pub struct NameTable {
     joints: [Vec<String>; Joint::COUNT],
     spine: Vec<String>,
     neck: Vec<String>,
+    t_pose: Option<KnownTPose>,
 }
 
 /// The tables that come with the crate.
@@ -70,7 +79,7 @@ impl NameTable {
     ///
     /// # Errors
     /// [`Error::Format`] for anything but `key = "name"` or `key = ["name", ...]` with the keys
-    /// of the table above.
+    /// of the table above, and for rotations of a T-pose that are none.
     pub fn parse(text: &str, path: &Path) -> Result<Self, Error> {
         let error = |place: &str, expected: &str, found: String| Error::Format {
             path: path.into(),
@@ -92,6 +101,10 @@ impl NameTable {
                         other => Err(error(&key, "names of joints", other.type_str().into())),
                     })
                     .collect::<Result<_, _>>()?,
+                toml::Value::Table(rotations) if key == "t_pose" => {
+                    table.t_pose = Some(KnownTPose::parse(&rotations, path)?);
+                    continue;
+                }
                 other => return Err(error(&key, "a name or names", other.type_str().into())),
             };
             match key.as_str() {
@@ -118,21 +131,10 @@ impl NameTable {
         Ok(table)
     }
 
-    /// Looks the table's names up in a skeleton: letter case, blanks, underscores, namespaces
-    /// and the prefixes of common rigs do not matter.
+    /// Looks the table's names up in a skeleton.
     pub(super) fn gather(&self, skeleton: &Skeleton) -> Gathered {
-        let found: Vec<String> = skeleton
-            .joints()
-            .iter()
-            .map(|joint| normalised(&joint.name))
-            .collect();
-        let find = |name: &String| {
-            // Exact spelling first: a file may tell "hand" from "Hand".
-            let wanted = normalised(name);
-            skeleton
-                .find(name)
-                .or_else(|| found.iter().position(|found| *found == wanted))
-        };
+        let joints = NamedJoints::new(skeleton);
+        let find = |name: &String| joints.find(name);
         let mut gathered = Gathered::default();
         for (names, place) in self.joints.iter().zip(&mut gathered.joints) {
             *place = names.iter().find_map(find);
@@ -142,14 +144,26 @@ impl NameTable {
         gathered
     }
 
+    /// The T-pose that is known of a skeleton whose joints were found so: the mapping file's, or
+    /// that of the family of names.
+    pub(super) fn known_t_pose<'a>(by: &FoundBy, file: Option<&'a Self>) -> Option<&'a KnownTPose> {
+        match by {
+            FoundBy::Names { family } => {
+                let table = Self::families().iter().find(|table| table.name == *family);
+                table.and_then(|table| table.t_pose.as_ref())
+            }
+            FoundBy::Shape => None,
+            FoundBy::File { rest } => file.and_then(|file| file.t_pose.as_ref()).or_else(|| {
+                let rest = rest.as_deref()?;
+                Self::known_t_pose(rest, file)
+            }),
+        }
+    }
+
     /// Every name of this mapping file that the skeleton lacks: a file must be right.
     pub(super) fn unknown_names(&self, skeleton: &Skeleton) -> Vec<String> {
-        let known: Vec<String> = skeleton
-            .joints()
-            .iter()
-            .map(|joint| normalised(&joint.name))
-            .collect();
-        let exists = |name: &String| known.contains(&normalised(name));
+        let joints = NamedJoints::new(skeleton);
+        let exists = |name: &String| joints.find(name).is_some();
         let single = self.joints.iter().filter(|names| !names.is_empty());
         let single = single
             .filter(|names| !names.iter().any(exists))
@@ -194,6 +208,13 @@ mod tests {
                     family.name()
                 );
             }
+            if let Some(t_pose) = &family.t_pose {
+                // Every joint that the family names, not only those that some file has.
+                let single = family.joints.iter().flatten();
+                for name in single.chain(&family.spine).chain(&family.neck) {
+                    assert!(t_pose.turns(name), "{} {name}", family.name());
+                }
+            }
             for joint in Joint::ALL {
                 let both = [joint, joint.mirrored()].map(|side| family.joints[side.index()].len());
                 assert_eq!(both[0], both[1], "{} {joint}", family.name());
@@ -209,6 +230,11 @@ mod tests {
             ("pelvis = 3", "pelvis"),
             ("neck = [1]", "neck"),
             ("pelvis", "TOML"),
+            ("[t_pose]\nHips = [0, 0, 1]", "Hips"),
+            ("[t_pose]\nHips = [0, 0, 0, 0]", "Hips"),
+            ("[t_pose]\nHips = [0, 0, \"a\", 1]", "Hips"),
+            ("[t_pose]\nHips = [0, 0, nan, 1]", "Hips"),
+            ("[spine]\nHips = [0, 0, 0, 1]", "spine"),
         ] {
             let error = NameTable::parse(text, Path::new("map.toml")).unwrap_err();
             assert!(error.to_string().contains(word), "{error}");

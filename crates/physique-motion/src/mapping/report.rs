@@ -125,6 +125,7 @@ impl fmt::Display for AlignedBy {
         formatter.write_str(match self {
             Self::RestPose => "the rest pose",
             Self::FirstFrame => "the T-pose in the first frame",
+            Self::KnownTPose => "the T-pose that is known of the rig",
             Self::Anatomy => "hinges, soles and sides over the clip",
         })
     }

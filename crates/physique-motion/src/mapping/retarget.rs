@@ -50,7 +50,7 @@ impl<'a> Retarget<'a> {
         clip: &SkeletonClip,
         human: &'a HumanJoints,
         body: &'a BodyRest,
-        leads_with_t_pose: bool,
+        alignment: Alignment,
         options: &MappingOptions,
     ) -> Result<Self, Error> {
         let pose = clip.pose(0);
@@ -69,7 +69,7 @@ impl<'a> Retarget<'a> {
         Ok(Self {
             human,
             body,
-            alignment: Alignment::find(clip, human, body, leads_with_t_pose),
+            alignment,
             spine: SpineWeights::new(human, &pose, body),
             ground: ground(&soles, body, scale),
             soles,
@@ -139,7 +139,7 @@ impl<'a> Retarget<'a> {
     }
 
     fn notes(&self, ground: f32) -> Vec<String> {
-        let mut notes = Vec::new();
+        let mut notes: Vec<String> = self.alignment.note.iter().cloned().collect();
         if ground.abs() > 0.05 {
             notes.push(format!(
                 "the source's feet stand {ground:.2} m above its height 0"
