@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use physique::{Condition, Protocol};
 
 use crate::body_choice::BodyArguments;
+use crate::convert::arguments::ConvertArguments;
 
 /// Human motion that a body could really perform: score it, look at it, convert it.
 #[derive(Debug, Parser)]
@@ -30,7 +31,7 @@ pub(crate) enum Verb {
     Score(ScoreArguments),
     /// Draw a motion on a body: a contact sheet over time, intersections in red.
     View(ViewArguments),
-    /// Bring a motion to the body and write it as BVH, AMASS, GLB or Physique's own format.
+    /// Bring motions to the body and write them in any format: BVH, AMASS, GLB, HumanML3D, KIT, CSV.
     Convert(ConvertArguments),
     /// Score embedded clips of real motion and draw them, to see what Physique does.
     Demo(DemoArguments),
@@ -117,20 +118,6 @@ pub(crate) struct ViewArguments {
     /// Moments to show, evenly spread, the worst one among them.
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=64))]
     pub(crate) moments: u16,
-    #[command(flatten)]
-    pub(crate) body: BodyArguments,
-    #[command(flatten)]
-    pub(crate) read: ReadArguments,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct ConvertArguments {
-    /// The motion.
-    #[arg(value_name = "IN")]
-    pub(crate) input: PathBuf,
-    /// Where it goes; the ending says the format.
-    #[arg(value_name = "OUT")]
-    pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) body: BodyArguments,
     #[command(flatten)]

@@ -241,36 +241,6 @@ fn view_draws_a_picture() {
 }
 
 #[test]
-fn convert_writes_every_format_and_score_reads_it_back() {
-    let folder = folder_of_clips();
-    let dance = path(&folder, "dance.bvh");
-    let mean = |file: &str| {
-        let output = physique(&["score", "--json", file]);
-        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
-        let score = &report["motions"][0]["score"];
-        score["self_intersection"]["mean_cm3"].as_f64().unwrap()
-    };
-    let original = mean(&dance);
-    for ending in ["bvh", "npz", "motion.npz"] {
-        let target = path(&folder, &format!("converted.{ending}"));
-        let output = physique(&["convert", &dance, &target]);
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-        let converted = mean(&target);
-        // BVH keeps six decimals of degrees and centimetres; the others are exact.
-        assert!(
-            (converted / original - 1.0).abs() < 5e-3,
-            "{ending}: {original} {converted}"
-        );
-    }
-    let glb = path(&folder, "converted.glb");
-    assert_eq!(physique(&["convert", &dance, &glb]).status.code(), Some(0));
-    assert!(fs::read(&glb).unwrap().starts_with(b"glTF"));
-    let unknown = physique(&["convert", &dance, &path(&folder, "converted.fbx")]);
-    assert_eq!(unknown.status.code(), Some(1));
-    assert!(text(&unknown.stderr).contains(".glb"));
-}
-
-#[test]
 fn demo_scores_and_draws_real_motion() {
     let folder = tempfile::tempdir().unwrap();
     let target = folder.path().join("demo");

@@ -1,6 +1,7 @@
 //! What a file is, by its first bytes and never by its ending.
 
 use crate::acclaim::{self, AcclaimFile};
+use crate::csv;
 use crate::npz::Archive;
 use physique_files::pickle::Pickle;
 use physique_files::torch::TorchFile;
@@ -15,6 +16,8 @@ pub(crate) enum Content {
     /// The `.amc` of a pair.
     AcclaimMotion,
     DeepMimic,
+    /// Text of ours.
+    Csv(csv::Content),
     /// None that is read; what it looks like.
     Other(String),
 }
@@ -60,6 +63,9 @@ impl Content {
                 return Self::Other(hint.into());
             }
             None => {}
+        }
+        if let Some(content) = csv::Content::of(bytes) {
+            return Self::Csv(content);
         }
         if starts_with("{") {
             let mentions_frames = text.windows(8).any(|window| window == b"\"Frames\"");

@@ -10,7 +10,7 @@ use crate::features::FeatureStatistics;
 use crate::npz::{Archive, ArrayLimits};
 use crate::read_file::read_file;
 use crate::{
-    Error, FrameRate, Limits, PositionClip, Recording, SkeletonClip, UpAxis, acclaim, arrays,
+    Error, FrameRate, Limits, PositionClip, Recording, SkeletonClip, UpAxis, acclaim, arrays, csv,
     deep_mimic,
 };
 
@@ -192,6 +192,22 @@ fn parse_parts(bytes: Vec<u8>, path: &Path, options: &ReadOptions) -> Result<Vec
         Content::DeepMimic => {
             let clip = deep_mimic::parse(&bytes, path, options)?;
             Ok(vec![Part::only("DeepMimic", SourceMotion::Skeleton(clip))])
+        }
+        Content::Csv(csv::Content::Positions) => {
+            let positions = csv::parse_positions(&bytes, path, options)?;
+            let notes = Vec::new();
+            let clip = PositionClip { positions, notes };
+            Ok(vec![Part::only(
+                "CSV of positions",
+                SourceMotion::Positions(clip),
+            )])
+        }
+        Content::Csv(csv::Content::Rotations) => {
+            let recording = csv::parse_rotations(&bytes, path, options)?;
+            Ok(vec![Part::only(
+                "CSV of rotations",
+                SourceMotion::Body(recording),
+            )])
         }
         Content::Other(looks_like) => Err(Error::UnknownFormat {
             path: path.into(),

@@ -3,6 +3,7 @@
 mod support;
 
 use glam::Vec3;
+use physique_body::Joint;
 use physique_motion::{
     Error, FrameRate, Limits, SkeletonClip, UpAxis,
     bvh::{self, BvhOptions, BvhWriteOptions, LengthUnit, PositionChannels},
@@ -352,11 +353,45 @@ proptest! {
     }
 }
 
+fn written_in(unit: LengthUnit, up_axis: UpAxis) -> BvhWriteOptions {
+    BvhWriteOptions { unit, up_axis }
+}
+
+#[test]
+fn a_file_with_z_up_stands_along_z_and_comes_back() {
+    let (motion, body) = (walk(40), figure());
+    let clip = SkeletonClip::from_motion(&motion, &body).unwrap();
+    let text = bvh::format_clip(&clip, &written_in(LengthUnit::Metre, UpAxis::Z));
+    // The rest pose itself stands: the head is above the pelvis along Z.
+    let neck = text.split("neck").nth(1).unwrap();
+    let offset = neck.split("OFFSET ").nth(1).unwrap();
+    let offset: Vec<f32> = offset
+        .split_whitespace()
+        .take(3)
+        .map(|n| n.parse().unwrap())
+        .collect();
+    let bone = body.bone(Joint::Spine3, Joint::Neck);
+    assert!(
+        Vec3::new(offset[0], offset[1], offset[2]).distance(Vec3::new(bone.x, -bone.z, bone.y))
+            < 1e-5
+    );
+    let again = parse(&text).unwrap();
+    assert_eq!(again.conversion().up_axis, UpAxis::Z);
+    for frame in 0..clip.frame_count() {
+        let (ours, theirs) = (again.pose(frame), clip.pose(frame));
+        for joint in Joint::ALL {
+            let found = again.skeleton().find(joint.name()).unwrap();
+            let distance = ours.positions[found].distance(theirs.positions[joint.index()]);
+            assert!(distance < 1e-5, "frame {frame}, {joint}: {distance} m");
+        }
+    }
+}
+
 #[test]
 fn writing_and_reading_gives_the_clip_back() {
     let clip = parse(&Rig::arms_down(30.0).bvh(&walk(20))).unwrap();
     for unit in [LengthUnit::Centimetre, LengthUnit::Metre] {
-        let text = bvh::format_clip(&clip, &BvhWriteOptions { unit });
+        let text = bvh::format_clip(&clip, &written_in(unit, UpAxis::Y));
         let again = parse(&text).unwrap();
         assert_eq!(again.conversion().metres_per_unit, unit.metres());
         assert_eq!(

@@ -24,6 +24,7 @@
 pub mod condition;
 pub mod defects;
 pub mod error;
+pub mod export;
 mod frames;
 pub mod load;
 pub mod physics_score;
@@ -39,6 +40,7 @@ pub use physique_physics as physics;
 
 pub use condition::Condition;
 pub use error::Error;
+pub use export::{ExportFormat, ExportOptions, export};
 pub use physics_score::PhysicsScore;
 pub use report::{MotionReport, Report};
 pub use score::{MotionScore, Protocol, ScoreOptions, Scorer, score};

@@ -6,19 +6,22 @@ use glam::{DQuat, EulerRot, Quat, Vec3};
 
 use super::channel::{Axis, Channel};
 use crate::unspoken::LengthUnit;
-use crate::{Error, Motion, SkeletonClip, mapping::BodyRest, write_file::write_file};
+use crate::{Error, Motion, SkeletonClip, UpAxis, mapping::BodyRest, write_file::write_file};
 
 /// How to write a clip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BvhWriteOptions {
     /// Length unit of offsets and positions: centimetres unless stated.
     pub unit: LengthUnit,
+    /// Axis that points up in the file: Y unless stated. With Z, the rest pose stands along Z too.
+    pub up_axis: UpAxis,
 }
 
 impl Default for BvhWriteOptions {
     fn default() -> Self {
         Self {
             unit: LengthUnit::Centimetre,
+            up_axis: UpAxis::Y,
         }
     }
 }
@@ -63,7 +66,7 @@ pub fn write_motion(
     write_clip(path, &SkeletonClip::from_motion(motion, body)?, options)
 }
 
-/// A clip as BVH text: Y up, channels Z, Y, X; six digits after the point, so that centimetres
+/// A clip as BVH text: channels Z, Y, X; six digits after the point, so that centimetres
 /// come back within 1e-8 m and angles within 1e-6 degrees of what was rounded.
 ///
 /// A moving root has its offset in its channels (both readings of position channels then agree);
@@ -82,6 +85,7 @@ pub fn format_clip(clip: &SkeletonClip, options: &BvhWriteOptions) -> String {
     let mut writer = Writer {
         clip,
         units_per_metre: 1.0 / options.unit.metres(),
+        file_from_ours: options.up_axis.y_up_from_file().inverse(),
         text: String::from("HIERARCHY\n"),
         order: Vec::with_capacity(joints),
     };
@@ -95,6 +99,8 @@ pub fn format_clip(clip: &SkeletonClip, options: &BvhWriteOptions) -> String {
 struct Writer<'a> {
     clip: &'a SkeletonClip,
     units_per_metre: f64,
+    /// Turns the axes of the world and of every joint; the identity for Y up.
+    file_from_ours: Quat,
     text: String,
     /// Joints as the hierarchy lists them: depth first.
     order: Vec<usize>,
@@ -175,7 +181,9 @@ impl Writer<'_> {
                     self.text += &position;
                     self.text.push(' ');
                 }
-                let angles = euler_degrees(self.clip.rotation(frame, joint), before[place]);
+                let turned = self.file_from_ours * self.clip.rotation(frame, joint);
+                let rotation = turned * self.file_from_ours.inverse();
+                let angles = euler_degrees(rotation, before[place]);
                 before[place] = angles;
                 let [z, y, x] = angles;
                 // Writing to a string cannot fail.
@@ -192,6 +200,7 @@ impl Writer<'_> {
     }
 
     fn vector(&self, metres: Vec3) -> String {
+        let metres = self.file_from_ours * metres;
         let [x, y, z] = (metres.as_dvec3() * self.units_per_metre).to_array();
         format!("{x:.6} {y:.6} {z:.6}")
     }
