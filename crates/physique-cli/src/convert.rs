@@ -114,12 +114,7 @@ impl Converter {
     }
 
     /// One of many files; what goes wrong is told at the end.
-    fn file_into_folder(
-        &self,
-        job: &Job,
-        resume: Option<&Resume>,
-        progress: &Progress,
-    ) -> Outcome {
+    fn file_into_folder(&self, job: &Job, resume: Option<&Resume>, progress: &Progress) -> Outcome {
         let mut outcome = Outcome::default();
         let is_done = |output: &Path| resume.is_some_and(|r| r.is_done(&job.input, output));
         if is_done(&job.output) {

@@ -257,3 +257,32 @@ fn failures_are_listed_at_the_end_and_the_others_are_converted() {
         assert!(matches!(found, SourceMotion::Body(_)));
     }
 }
+
+#[test]
+fn all_motions_of_a_file_go_into_a_folder_of_its_name() {
+    let results = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../physique-motion/tests/fixtures/arrays/mdm_results.npy"
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let output = at(&folder, "out");
+    let said = succeeds(&["convert", results, &(output.clone() + "/"), "--to", "bvh"]);
+    let files = fs::read_dir(folder.path().join("out/mdm_results"))
+        .unwrap()
+        .count();
+    assert!(
+        files > 1 && said.contains(&format!("{files} written")),
+        "{said}"
+    );
+    let again = succeeds(&["convert", results, &output, "--to", "bvh"]);
+    assert!(
+        again.contains(&format!("0 written, {files} kept")),
+        "{again}"
+    );
+    // One of them by its number goes to one file; all of them do not.
+    let one = at(&folder, "one.bvh");
+    succeeds(&["convert", &format!("{results}#1"), &one]);
+    let by_number = fs::read(folder.path().join("out/mdm_results/1.bvh")).unwrap();
+    assert_eq!(fs::read(&one).unwrap(), by_number);
+    assert!(fails(1, &["convert", results, &one]).contains("#0"));
+}

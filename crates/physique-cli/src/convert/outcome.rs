@@ -22,7 +22,8 @@ pub(crate) struct Outcome {
 impl Outcome {
     /// Something was not converted.
     pub(crate) fn fails(&mut self, input: &Path, problem: &dyn Display) {
-        self.failures.push((input.to_owned(), format!("{problem:#}")));
+        self.failures
+            .push((input.to_owned(), format!("{problem:#}")));
     }
 }
 

@@ -42,7 +42,13 @@ impl Job {
         let folder = PathBuf::from(folder.strip_suffix(&ending).unwrap_or(&folder));
         let key = name.rsplit_once('#').map_or(name, |(_, key)| key);
         // A name may be a caption: nothing in it may lead to another folder.
-        let safe = |c: char| if c.is_alphanumeric() || "-_. ".contains(c) { c } else { '_' };
+        let safe = |c: char| {
+            if c.is_alphanumeric() || "-_. ".contains(c) {
+                c
+            } else {
+                '_'
+            }
+        };
         let name: String = key.chars().map(safe).take(80).collect();
         folder.join(name.trim_matches(['.', ' ']).to_owned() + &ending)
     }
