@@ -18,7 +18,13 @@ fn even(fps: f64, frames: usize, radians: f32, metres: f32) -> Motion {
         .flat_map(|f| [Quat::from_rotation_y(radians * seconds(f)); Joint::COUNT])
         // Every other quaternion is the other sign of the same rotation.
         .enumerate()
-        .map(|(index, q)| if index / Joint::COUNT % 2 == 0 { q } else { -q })
+        .map(|(index, q)| {
+            if (index / Joint::COUNT).is_multiple_of(2) {
+                q
+            } else {
+                -q
+            }
+        })
         .collect();
     Motion::new(rate(fps), None, root, rotations).unwrap()
 }
