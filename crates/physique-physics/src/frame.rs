@@ -22,6 +22,8 @@ pub struct FramePhysics {
     pub slide_m_s: f64,
     /// Centre of mass.
     pub centre_of_mass: DVec3,
+    /// Base of support: the hull of the skin that bears the body; `None` without contact.
+    pub base_of_support: Option<SupportPolygon>,
     /// Centre of pressure by [`PressureModel::HUMOS`]; `None` in the air.
     pub centre_of_pressure: Option<DVec2>,
     /// The whole body's motion; `None` near the ends of the clip, where derivatives have no
@@ -142,8 +144,10 @@ impl<'a> FrameMeter<'a> {
             (Some(_), Some(centroid)) => centroid.zero_moment_point(self.ground),
             _ => None,
         };
-        let outside = |point: Option<DVec2>| Some(polygon.as_ref()?.signed_distance(point?));
         let capture_point = centroid.and_then(|centroid| centroid.capture_point(self.ground));
+        let outside = |point: Option<DVec2>| Some(polygon.as_ref()?.signed_distance(point?));
+        let zero_moment_distance_m = outside(zero_moment_point);
+        let margin_of_stability_m = outside(capture_point).map(|distance| -distance);
         Ok(FramePhysics {
             lowest_m: lowest - self.ground,
             support: match polygon {
@@ -156,10 +160,11 @@ impl<'a> FrameMeter<'a> {
             ),
             centre_of_mass: self.physics.moments().mean(transforms.frame(frame)),
             centre_of_pressure: self.centre_of_pressure(),
+            base_of_support: polygon,
             centroid,
             zero_moment_point,
-            zero_moment_distance_m: outside(zero_moment_point),
-            margin_of_stability_m: outside(capture_point).map(|distance| -distance),
+            zero_moment_distance_m,
+            margin_of_stability_m,
             smoothness: self.joint_motion(transforms, frame),
         })
     }
