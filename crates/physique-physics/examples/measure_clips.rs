@@ -68,7 +68,7 @@ fn print(physics: &Physics, name: &str, motion: &Motion) -> Result<(), Failure> 
         None => motion.clone(),
     };
     let options = PhysicsOptions {
-        balance_cutoff_hz: number("CUTOFF").unwrap_or(4.0),
+        balance_cutoff_hz: number("CUTOFF").unwrap_or(3.0),
         contact_height: number("HEIGHT").unwrap_or(0.03),
         contact_speed: number("SPEED").unwrap_or(0.4),
         ..PhysicsOptions::default()

@@ -5,6 +5,7 @@ use physique_body::{Body, Joint, Pose, PosedBody};
 use physique_motion::Motion;
 
 use crate::balance::on_ground;
+use crate::contact::{AroundFrame, bearing_skin};
 use crate::soles::{SOLE_POINTS, skinned};
 use crate::transforms::Transforms;
 use crate::{
@@ -26,12 +27,15 @@ pub struct FramePhysics {
     pub base_of_support: Option<SupportPolygon>,
     /// Centre of pressure by [`PressureModel::HUMOS`]; `None` in the air.
     pub centre_of_pressure: Option<DVec2>,
-    /// The whole body's motion; `None` near the ends of the clip, where derivatives have no
+    /// The whole body's motion, averaged over about a tenth of a second
+    /// ([`TimeFilter::averaging`]); `None` near the ends of the clip, where derivatives have no
     /// neighbours.
     pub centroid: Option<Centroid>,
-    /// Zero moment point; `None` near the ends, without contact, or with too little load.
+    /// Zero moment point of that motion; `None` near the ends, without contact, or with too little
+    /// load.
     pub zero_moment_point: Option<DVec2>,
-    /// Signed distance of the zero moment point to the base of support; negative inside.
+    /// Signed distance of the zero moment point to the base of support, averaged over the same
+    /// time; negative inside.
     pub zero_moment_distance_m: Option<f64>,
     /// How far inside the base of support the capture point lies (Hof's margin of stability).
     pub margin_of_stability_m: Option<f64>,
@@ -71,7 +75,7 @@ impl Filters {
         let rate = motion.frame_rate();
         let reach = (Self::SPEED_REACH * rate.per_second()).round() as usize;
         Ok(Self {
-            balance: TimeFilter::new(rate, options.balance_cutoff_hz)?,
+            balance: TimeFilter::averaging(rate, options.balance_cutoff_hz)?,
             smoothness: TimeFilter::new(rate, options.smoothness_cutoff_hz)?,
             speed_reach: reach.max(1),
         })
@@ -92,7 +96,7 @@ pub(crate) struct FrameMeter<'a> {
     filters: &'a Filters,
     ground: f64,
     posed: PosedBody,
-    rate: Vec<DMat4>,
+    around: AroundFrame,
     derivatives: [Vec<DMat4>; 4],
     contacts: Vec<DVec2>,
 }
@@ -112,14 +116,14 @@ impl<'a> FrameMeter<'a> {
             options,
             filters,
             ground,
-            rate: Vec::new(),
+            around: AroundFrame::default(),
             derivatives: Default::default(),
             contacts: Vec::new(),
         }
     }
 
-    /// Measures a frame of the motion. Whether a frame without contact flies is decided later,
-    /// from its neighbours: here its support is [`Support::Nothing`].
+    /// Measures a frame of the motion. What its neighbours decide comes later: whether it flies
+    /// without contact (here [`Support::Nothing`]), and where the averaged base of support is.
     pub(crate) fn measure(
         &mut self,
         transforms: &Transforms,
@@ -134,10 +138,19 @@ impl<'a> FrameMeter<'a> {
         let last = self.motion.frame_count() - 1;
         let from = frame.saturating_sub(self.filters.speed_reach);
         let to = (frame + self.filters.speed_reach).min(last);
-        let seconds = (to - from).max(1) as f64 * self.motion.frame_rate().frame_seconds();
-        transforms.rate(from, to, seconds, &mut self.rate);
+        let frame_s = self.motion.frame_rate().frame_seconds();
+        let seconds = (to - from).max(1) as f64 * frame_s;
+        self.around.set(transforms, frame, (from, to), frame_s);
 
-        let lowest = self.find_contacts();
+        let vertices = self.posed.vertices();
+        let lowest = vertices.iter().map(|v| v.y).fold(f32::MAX, f32::min);
+        bearing_skin(
+            self.physics.body(),
+            vertices,
+            &self.around,
+            (self.ground, self.options),
+            &mut self.contacts,
+        );
         let polygon = SupportPolygon::around(&mut self.contacts);
         let centroid = self.centroid(transforms, frame);
         let zero_moment_point = match (&polygon, &centroid) {
@@ -145,11 +158,10 @@ impl<'a> FrameMeter<'a> {
             _ => None,
         };
         let capture_point = centroid.and_then(|centroid| centroid.capture_point(self.ground));
-        let outside = |point: Option<DVec2>| Some(polygon.as_ref()?.signed_distance(point?));
-        let zero_moment_distance_m = outside(zero_moment_point);
-        let margin_of_stability_m = outside(capture_point).map(|distance| -distance);
+        let margin = || Some(-polygon.as_ref()?.signed_distance(capture_point?));
+        let margin_of_stability_m = margin();
         Ok(FramePhysics {
-            lowest_m: lowest - self.ground,
+            lowest_m: f64::from(lowest) - self.ground,
             support: match polygon {
                 Some(_) => Support::Ground,
                 None => Support::Nothing,
@@ -163,28 +175,10 @@ impl<'a> FrameMeter<'a> {
             base_of_support: polygon,
             centroid,
             zero_moment_point,
-            zero_moment_distance_m,
+            zero_moment_distance_m: None,
             margin_of_stability_m,
             smoothness: self.joint_motion(transforms, frame),
         })
-    }
-
-    /// Collects the skin that bears the body; returns the height of the lowest skin.
-    fn find_contacts(&mut self) -> f64 {
-        self.contacts.clear();
-        let body = self.physics.body();
-        let mut lowest = f32::MAX;
-        let highest = (self.ground + self.options.contact_height) as f32;
-        for (vertex, position) in self.posed.vertices().iter().enumerate() {
-            lowest = lowest.min(position.y);
-            if position.y < highest {
-                let velocity = skinned(body, vertex, &self.rate);
-                if velocity.length_squared() < self.options.contact_speed.powi(2) {
-                    self.contacts.push(on_ground(position.as_dvec3()));
-                }
-            }
-        }
-        f64::from(lowest)
     }
 
     /// Mean horizontal speed of the sole points that are low all the time between the first and
@@ -230,16 +224,11 @@ impl<'a> FrameMeter<'a> {
         if !filter.covers(frame, self.motion.frame_count()) {
             return None;
         }
-        let [_, first, second, _] = &mut self.derivatives;
+        let [poses, first, second, _] = &mut self.derivatives;
+        transforms.derivative(filter, 0, frame, poses);
         transforms.derivative(filter, 1, frame, first);
         transforms.derivative(filter, 2, frame, second);
-        let moments = self.physics.moments();
-        Some(Centroid::new(
-            moments,
-            transforms.frame(frame),
-            first,
-            second,
-        ))
+        Some(Centroid::new(self.physics.moments(), poses, first, second))
     }
 
     fn joint_motion(&mut self, transforms: &Transforms, frame: usize) -> Option<JointMotion> {

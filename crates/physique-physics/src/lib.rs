@@ -14,8 +14,10 @@
 //! What is not known is not judged: frames in flight, without support, or too near to the ends of
 //! a clip for derivatives are counted, never called stable or unstable.
 
+mod contact;
 mod ground;
 mod interior;
+mod judge;
 mod mass_moments;
 mod mass_points;
 mod transforms;

@@ -22,7 +22,8 @@ pub struct PhysicsOptions {
     pub contact_speed: f64,
     /// Low soles slower than this slide; faster ones swing past, in m/s.
     pub swing_speed: f64,
-    /// Cut-off of the derivatives for balance, in Hz: see [`crate::TimeFilter`].
+    /// Cut-off of the averages for balance, in Hz: see [`crate::TimeFilter::averaging`]. 3 Hz
+    /// averages over about one frame of the slowest common rate, 20 fps, to either side.
     pub balance_cutoff_hz: f64,
     /// Cut-off of the derivatives for smoothness, in Hz.
     pub smoothness_cutoff_hz: f64,
@@ -35,7 +36,7 @@ impl Default for PhysicsOptions {
             contact_height: 0.03,
             contact_speed: 0.4,
             swing_speed: 1.0,
-            balance_cutoff_hz: 4.0,
+            balance_cutoff_hz: 3.0,
             smoothness_cutoff_hz: 6.0,
         }
     }

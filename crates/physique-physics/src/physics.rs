@@ -6,6 +6,7 @@ use physique_motion::Motion;
 use rayon::prelude::*;
 
 use crate::frame::{Filters, FrameMeter};
+use crate::judge::judge;
 use crate::soles::{SolePoint, sole_points};
 use crate::support::classify;
 use crate::transforms::Transforms;
@@ -145,6 +146,7 @@ impl Physics {
             .collect::<Result<Vec<_>, _>>()?;
         let mut frames: Vec<_> = blocks.into_iter().flatten().collect();
 
+        judge(&mut frames, &filters.balance);
         let touching: Vec<_> = frames
             .iter()
             .map(|frame| frame.support == crate::Support::Ground)

@@ -5,6 +5,9 @@
 //! fitted to the frames around, weighted by a Gaussian in time (a Savitzky-Golay filter with soft
 //! ends). With `s = (omega sigma)^2 / 2` it passes the first and second derivatives by
 //! `(1 + s) exp(-s)` to 2 % (the window ends at 4.5 sigma), at any frame rate that resolves sigma.
+//!
+//! Such a filter overshoots: some of its weights are negative. Where a derivative is compared with
+//! a bound, [`TimeFilter::averaging`] does not: means of what keeps to the bound keep to it.
 
 use physique_motion::FrameRate;
 
@@ -16,8 +19,14 @@ const SIGMA_HZ: f64 = 0.233_70;
 const WINDOW_SIGMAS: f64 = 4.5;
 /// A narrower Gaussian than this many frames does not see its neighbours.
 const LEAST_SIGMA_FRAMES: f64 = 0.7;
+/// The same for an average: what is left beside the differences must still be a Gaussian.
+const LEAST_AVERAGE_FRAMES: f64 = 0.8;
 /// Beyond this the window would hold more frames than any motion.
 const HIGHEST_RATE: f64 = 10_000.0;
+/// `sigma * cut-off` of an average: where `exp(-s)` falls to 1/sqrt(2).
+const AVERAGE_SIGMA_HZ: f64 = 0.132_505;
+/// An average ends at this many sigmas: 0.05 % of the weights lie beyond.
+const AVERAGE_SIGMAS: f64 = 3.5;
 /// Coefficients of the fitted quartic.
 const TERMS: usize = 5;
 const FACTORIAL: [f64; 4] = [1.0, 1.0, 2.0, 6.0];
@@ -39,23 +48,9 @@ impl TimeFilter {
     /// [`Error::Option`] for a cut-off that is not between 0.1 and 50 Hz, or for more than 10,000
     /// frames a second.
     pub fn new(frame_rate: FrameRate, cutoff_hz: f64) -> Result<Self, Error> {
-        if !(0.1..=50.0).contains(&cutoff_hz) {
-            return Err(Error::Option {
-                option: "cut-off of the time derivatives",
-                expected: "0.1 to 50 Hz",
-                found: cutoff_hz,
-            });
-        }
-        if frame_rate.per_second() > HIGHEST_RATE {
-            return Err(Error::Option {
-                option: "frame rate of the motion",
-                expected: "at most 10000 frames a second",
-                found: frame_rate.per_second(),
-            });
-        }
+        let sigma_frames = sigma_frames(frame_rate, cutoff_hz, SIGMA_HZ)?.max(LEAST_SIGMA_FRAMES);
         let frame = frame_rate.frame_seconds();
-        let sigma = (SIGMA_HZ / cutoff_hz).max(LEAST_SIGMA_FRAMES * frame);
-        let sigma_frames = sigma / frame;
+        let sigma = sigma_frames * frame;
         let reach = ((WINDOW_SIGMAS * sigma_frames).round() as usize).max(2);
         // Time in sigmas: well conditioned for any rate.
         let times: Vec<_> = frames(reach).map(|k| k / sigma_frames).collect();
@@ -64,6 +59,46 @@ impl TimeFilter {
             reach,
             cutoff_hz: SIGMA_HZ / sigma,
             taps: fit(&times, weights, TERMS, sigma),
+        })
+    }
+
+    /// Gaussian means, -3 dB at this cut-off, of the plain differences of neighbouring frames: the
+    /// response of a derivative is `exp(-s)`, at any frame rate that resolves sigma.
+    ///
+    /// All weights of order 0 and all weights on the differences are positive, and equal but for
+    /// what a difference smooths by itself. A zero moment point from such derivatives is the mean
+    /// of those around it: while they lie in their bases of support, it lies in the mean of these
+    /// ([`SupportPolygon::mean`](crate::SupportPolygon::mean)).
+    ///
+    /// # Errors
+    /// As [`TimeFilter::new`].
+    pub fn averaging(frame_rate: FrameRate, cutoff_hz: f64) -> Result<Self, Error> {
+        let sigma =
+            sigma_frames(frame_rate, cutoff_hz, AVERAGE_SIGMA_HZ)?.max(LEAST_AVERAGE_FRAMES);
+        let frame = frame_rate.frame_seconds();
+        let reach = (AVERAGE_SIGMAS * sigma).ceil() as usize + 1;
+        // A difference is itself a mean of the derivative over the frames it spans, of this
+        // variance in frames: the Gaussian adds the rest.
+        let difference = |taps: &[f64], variance: f64, order: i32| {
+            let half = taps.len() / 2;
+            let weights = gaussian(reach - half, (sigma * sigma - variance).sqrt());
+            let mut means = vec![0.0; 2 * reach + 1];
+            for (place, weight) in weights.iter().enumerate() {
+                for (offset, tap) in taps.iter().enumerate() {
+                    means[place + offset] += weight * tap / frame.powi(order);
+                }
+            }
+            means
+        };
+        Ok(Self {
+            reach,
+            cutoff_hz: AVERAGE_SIGMA_HZ / (sigma * frame),
+            taps: [
+                gaussian(reach, sigma),
+                difference(&[-0.5, 0.0, 0.5], 1.0 / 3.0, 1),
+                difference(&[1.0, -2.0, 1.0], 1.0 / 6.0, 2),
+                difference(&[-0.5, 1.0, 0.0, -1.0, 0.5], 1.0 / 2.0, 3),
+            ],
         })
     }
 
@@ -110,6 +145,35 @@ impl TimeFilter {
     pub const fn covers(&self, frame: usize, count: usize) -> bool {
         frame >= self.reach && frame + self.reach < count
     }
+}
+
+/// Width of a Gaussian in frames: `sigma_hz` over the cut-off.
+fn sigma_frames(frame_rate: FrameRate, cutoff_hz: f64, sigma_hz: f64) -> Result<f64, Error> {
+    if !(0.1..=50.0).contains(&cutoff_hz) {
+        return Err(Error::Option {
+            option: "cut-off of the time derivatives",
+            expected: "0.1 to 50 Hz",
+            found: cutoff_hz,
+        });
+    }
+    if frame_rate.per_second() > HIGHEST_RATE {
+        return Err(Error::Option {
+            option: "frame rate of the motion",
+            expected: "at most 10000 frames a second",
+            found: frame_rate.per_second(),
+        });
+    }
+    Ok(sigma_hz / cutoff_hz * frame_rate.per_second())
+}
+
+/// Weights that add up to 1 on the frames `-reach..=reach`.
+fn gaussian(reach: usize, sigma: f64) -> Vec<f64> {
+    let mut weights: Vec<_> = frames(reach)
+        .map(|k| (-k * k / (2.0 * sigma * sigma)).exp())
+        .collect();
+    let sum: f64 = weights.iter().sum();
+    weights.iter_mut().for_each(|weight| *weight /= sum);
+    weights
 }
 
 fn frames(reach: usize) -> impl Iterator<Item = f64> {
@@ -167,6 +231,36 @@ mod tests {
 
     fn at(fps: f64) -> FrameRate {
         FrameRate::new(fps).unwrap()
+    }
+
+    #[test]
+    fn averages_are_exact_for_parabolas_and_have_the_stated_response() {
+        for fps in [20.0, 30.0, 60.0, 120.0] {
+            let filter = TimeFilter::averaging(at(fps), 3.0).unwrap();
+            assert!((filter.cutoff_hz() - 3.0).abs() < 1e-12);
+            assert!(filter.taps(0).iter().all(|weight| *weight > 0.0));
+            let sum = |order: usize, of: &dyn Fn(f64) -> f64| -> f64 {
+                let places = frames(filter.reach()).zip(filter.taps(order));
+                places.map(|(k, tap)| tap * of(k / fps)).sum()
+            };
+            for (order, parabola) in [(1, -2.0), (2, 6.0)] {
+                let found = sum(order, &|t| 1.0 - 2.0 * t + 3.0 * t * t);
+                assert!((found - parabola).abs() < 1e-9, "{fps} {order} {found}");
+            }
+            for hertz in [0.5, 1.0, 2.0, 3.0, 5.0] {
+                let omega = 2.0 * PI * hertz;
+                let stated = (-(omega * AVERAGE_SIGMA_HZ / 3.0).powi(2) / 2.0).exp();
+                let value = sum(0, &|t| (omega * t).cos());
+                let first = sum(1, &|t| (omega * t).sin()) / omega;
+                let second = -sum(2, &|t| (omega * t).cos()) / (omega * omega);
+                for found in [value, first, second] {
+                    assert!(
+                        (found - stated).abs() < 0.02,
+                        "{fps} {hertz}: {found} {stated}"
+                    );
+                }
+            }
+        }
     }
 
     #[test]

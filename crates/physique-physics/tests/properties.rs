@@ -105,6 +105,30 @@ fn hovering_is_floating_and_never_judged() {
 }
 
 #[test]
+fn what_lands_bears_the_body_at_once_and_until_it_leaves() {
+    for fps in [20.0, 30.0, 60.0, 120.0] {
+        let (lands, leaves) = ((1.0 * fps) as usize, (2.0 * fps) as usize);
+        let step = 1.5 / fps as f32;
+        let motion = changed(
+            &rigid(fps, (3.0 * fps) as usize, |_| 0.0),
+            |frame, root, _| {
+                root.z += step * (frame.min(lands) + frame.saturating_sub(leaves)) as f32;
+            },
+        );
+        let found = measure(&motion);
+        for (frame, physics) in found.frames.iter().enumerate() {
+            let bears = physics.base_of_support.is_some();
+            let near = (0.02 * fps) as usize;
+            if (lands..=leaves).contains(&frame) {
+                assert!(bears, "{fps} fps: frame {frame} rests");
+            } else if !(lands - near..=leaves + near).contains(&frame) {
+                assert!(!bears, "{fps} fps: frame {frame} moves");
+            }
+        }
+    }
+}
+
+#[test]
 fn frames_are_counted_once() {
     for clip in embedded::clips() {
         let motion = clip.load().unwrap().motion;
