@@ -53,6 +53,16 @@ pub enum Error {
         /// What the file holds.
         found: String,
     },
+    /// A compressed file that is broken, or that holds more than the limit.
+    #[error("The file is compressed by {method}: expected {expected}, found {found}.")]
+    Compressed {
+        /// gzip or zlib.
+        method: &'static str,
+        /// What was expected.
+        expected: String,
+        /// What the stream holds.
+        found: String,
+    },
     /// The arrays of a file are more than the limit.
     #[error("The arrays of the file: {what} is above the limit of {limit}.")]
     NamedArrays {

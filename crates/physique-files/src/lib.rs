@@ -9,6 +9,7 @@
 //! * [`torch`]: `.pt` files, as ZIP archive and in the form before PyTorch 1.6;
 //! * [`Data`]: the values of a `.npy`, `.npz`, `.pkl` or `.pt` as one tree, whatever it is, and
 //!   [`named_arrays`]: its arrays by name;
+//! * [`unpacked`]: gzip and zlib streams, within a limit;
 //! * [`read_file`] and [`write_file`]: whole files within a limit, and written whole or not at all.
 //!
 //! No file can run code, crash the process or take more memory than its limit: sizes are checked
@@ -17,6 +18,7 @@
 //!
 //! This crate knows nothing of bodies or motions.
 
+mod compressed;
 pub mod data;
 mod error;
 pub mod named;
@@ -26,6 +28,7 @@ mod read_file;
 pub mod torch;
 mod write_file;
 
+pub use compressed::unpacked;
 pub use data::Data;
 pub use error::{Error, FileError};
 pub use named::named_arrays;

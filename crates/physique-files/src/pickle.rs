@@ -8,7 +8,7 @@
 //! |---|---|
 //! | NumPy's `_reconstruct`, `_frombuffer`, `scalar`, `ndarray`, `dtype` | an array |
 //! | joblib's `NumpyArrayWrapper` with the bytes behind it | an array |
-//! | `collections.OrderedDict`, `set`, `frozenset`, `bytes`, `bytearray`, `_codecs.encode` | itself |
+//! | `collections.OrderedDict`, `defaultdict`, `set`, `frozenset`, `bytes`, `bytearray`, `_codecs.encode` | itself |
 //! | chumpy's `Ch` and `Select`, SciPy's `csc_matrix` and `csr_matrix` | an object: class and attributes |
 //! | PyTorch's `_rebuild_tensor_v2`, `_rebuild_parameter` and storages | a tensor, see [`crate::torch`] |
 //!

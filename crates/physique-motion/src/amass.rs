@@ -29,10 +29,10 @@
 //! AMASS: <https://amass.is.tue.mpg.de>, Mahmood et al., ICCV 2019.
 
 mod reader;
-mod turn;
 mod writer;
 
 pub use reader::{from_archive, read};
+pub(crate) use reader::{from_fields, holds};
 pub use writer::{AmassFile, to_npz, write};
 
 use glam::Vec3;
@@ -42,9 +42,3 @@ pub const SMPL_REST_PELVIS: Vec3 = Vec3::new(0.0, -0.23, 0.03);
 
 /// Rest pelvis of SMPL-X's mean bodies, rounded to the centimetre.
 pub const SMPLX_REST_PELVIS: Vec3 = Vec3::new(0.0, -0.35, 0.01);
-
-/// Joints of SMPL-H: the body's 22 and 15 of each hand.
-const SMPLH_JOINTS: usize = 52;
-
-/// Joints of SMPL-X: jaw and two eyes more.
-const SMPLX_JOINTS: usize = 55;

@@ -7,19 +7,26 @@
 //! | `[frames][263]`, `[frames][251]` | features of HumanML3D and KIT-ML, see [`crate::features`] |
 //! | `[frames][22][3]`, `[frames][21][3]` | joint positions of HumanML3D and KIT-ML |
 //! | either with motions first, or motions first and frames last | many of them |
+//! | `[frames]` and 322, 272, 201 or 135 | rotations of Motion-X, MotionStreamer, HY-Motion and their kin |
 //! | `motion` with `lengths` or `text` | MDM's `results.npy` |
+//! | `thetas` and `root_translation` | MDM's `smpl_params.npy` |
+//! | SMPL's parameters under the keys of GVHMR, WHAM, AIST++, EDGE, TRAM, Kimodo or SMPL-X | one person |
+//! | dictionaries or lists of these | several people |
 //! | `poses`, or `root_orient` and `pose_body` | [`crate::amass`] |
 //! | `physique_motion` | [`crate::native`] |
 
+mod dictionary;
 mod joints;
 mod mdm;
+mod parameters;
+mod rows;
 
 use std::path::Path;
 
 use physique_files::pickle::PickleLimits;
 use physique_files::{Data, Error as DataError};
 
-use crate::npz::ArrayLimits;
+use crate::npz::{Array, ArrayLimits};
 use crate::read::{Part, open_archive};
 use crate::{Error, ReadOptions, SourceMotion, amass, native};
 
@@ -66,36 +73,34 @@ pub(crate) fn from_npz(
     path: &Path,
     options: &ReadOptions,
 ) -> Result<Vec<Part>, Error> {
-    let context = Context { path, options };
     let mut archive = open_archive(bytes, path, options)?;
+    // These are read array by array; all others as one tree.
     if archive.contains(native::MARK) {
         let recording = native::from_archive(&mut archive, path, options)?;
         let motion = SourceMotion::Body(recording);
         return Ok(vec![Part::only("Physique motion", motion)]);
     }
-    if archive.contains("poses") || archive.contains("pose_body") {
+    let has_rate = archive.contains("mocap_framerate") || archive.contains("mocap_frame_rate");
+    if archive.contains("pose_body") || (archive.contains("poses") && has_rate) {
         let recording = amass::from_archive(&mut archive, path, options)?;
         return Ok(vec![Part::only("AMASS", SourceMotion::Body(recording))]);
     }
-    let keys = archive.keys();
-    let shown = keys[..keys.len().min(12)].join(", ");
-    Err(context.unknown(format!("an archive of the arrays [{shown}]")))
+    from_bytes(archive.into_bytes(), path, options)
 }
 
-/// Motions of a `.npy`, a pickle or a PyTorch file.
+/// Motions of a `.npy`, an `.npz` of a dictionary, a pickle or a PyTorch file.
 pub(crate) fn from_bytes(
     bytes: Vec<u8>,
     path: &Path,
     options: &ReadOptions,
 ) -> Result<Vec<Part>, Error> {
     let context = Context { path, options };
-    let bytes_limit = options.limits.bytes;
     let arrays = ArrayLimits {
-        bytes: bytes_limit,
+        bytes: options.limits.bytes,
         ..ArrayLimits::default()
     };
     let pickles = PickleLimits {
-        bytes: bytes_limit,
+        bytes: options.limits.bytes,
         ..PickleLimits::default()
     };
     let data = Data::read(bytes, &arrays, &pickles).map_err(|error| match error {
@@ -109,15 +114,17 @@ pub(crate) fn from_bytes(
         },
     })?;
     match &data {
-        Data::Array(array) => joints::read(&context, array),
-        Data::Dict(_) if mdm::holds(&data) => mdm::read(&context, &data),
-        Data::Dict(entries) => {
-            let keys = entries.iter().take(12);
-            let keys: Vec<_> = keys
-                .map(|(key, value)| format!("`{}`: {}", key.escape_debug(), value.kind()))
-                .collect();
-            Err(context.unknown(format!("a dictionary of {}", keys.join(", "))))
-        }
+        Data::Array(array) => one_array(&context, array),
+        Data::Dict(_) | Data::List(_) => dictionary::read(&context, &data),
         other => Err(context.unknown(other.kind())),
+    }
+}
+
+/// Motions of an array without a dictionary around it.
+fn one_array(context: &Context<'_>, array: &Array) -> Result<Vec<Part>, Error> {
+    if rows::holds(array) {
+        rows::read(context, array)
+    } else {
+        joints::read(context, array)
     }
 }

@@ -31,7 +31,6 @@ impl Content {
                 "a binary glTF model, which is written but not read",
             ),
             (b"Kaydara FBX", "Autodesk FBX; Blender converts it to BVH"),
-            (b"\x1f\x8b", "a gzip file; unpack it first"),
             (b"\xfd7zXZ", "an xz file; unpack it first"),
         ];
         if Archive::looks_like(bytes) {

@@ -176,12 +176,14 @@ pub enum Error {
         found: usize,
     },
     /// A feature that is NaN or infinite.
-    #[error("Frame {frame}, column {column}: expected a finite number.")]
+    #[error("Frame {frame}, column {column} ({what}): expected a finite number.")]
     FeatureNotFinite {
         /// Frame, from 0.
         frame: usize,
         /// Column, from 0.
         column: usize,
+        /// What the column holds, and of which joint.
+        what: String,
     },
     /// A body that faces nowhere.
     #[error("Frame {frame}: hips and shoulders do not tell where the body faces.")]

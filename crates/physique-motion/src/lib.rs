@@ -15,6 +15,7 @@ pub mod deep_mimic;
 pub mod embedded;
 pub mod error;
 pub mod features;
+mod fields;
 pub mod frame_rate;
 pub mod glb;
 pub mod inverse_kinematics;
@@ -28,7 +29,9 @@ mod read_file;
 pub mod recording;
 mod resample;
 pub mod skeleton;
+mod smpl_motion;
 mod unspoken;
+mod world;
 mod write_file;
 
 pub use clip::{Conversion, SkeletonClip, UpAxis};

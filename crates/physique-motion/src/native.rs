@@ -30,7 +30,8 @@ use std::path::Path;
 use glam::{Quat, Vec3};
 use physique_body::Joint;
 
-use crate::npz::{Archive, ArchiveWriter, Array, ArrayError};
+use crate::fields::Fields;
+use crate::npz::{Archive, ArchiveWriter, ArrayError};
 use crate::read::{open_archive, stem};
 use crate::read_file::read_file;
 use crate::write_file::write_file;
@@ -125,58 +126,57 @@ pub fn from_archive(
     path: impl AsRef<Path>,
     options: &ReadOptions,
 ) -> Result<Recording, Error> {
-    let path = path.as_ref();
-    Reader { archive, path }.read(options)
+    from_fields(&mut Fields::of_archive(archive, path.as_ref(), options))
 }
 
-struct Reader<'a> {
-    archive: &'a mut Archive,
-    path: &'a Path,
+/// Reads a dictionary of the format's arrays.
+pub(crate) fn from_fields(fields: &mut Fields<'_>) -> Result<Recording, Error> {
+    Reader { fields }.read()
 }
 
-impl Reader<'_> {
-    fn read(mut self, options: &ReadOptions) -> Result<Recording, Error> {
-        let version = self.value(MARK, Array::number)?;
+struct Reader<'a, 'b> {
+    fields: &'b mut Fields<'a>,
+}
+
+impl Reader<'_, '_> {
+    fn read(mut self) -> Result<Recording, Error> {
+        let version = self.fields.number(MARK)?;
         if version != VERSION as f64 {
             let expected = format!("version {VERSION}");
-            return Err(self.format(&format!("`{MARK}`"), &expected, &version.to_string()));
+            return Err(self.fields.format(MARK, &expected, &version.to_string()));
         }
-        let names = self.value("joints", Array::text)?;
+        let names = self.fields.text("joints")?;
         if names != joint_names() {
-            return Err(self.format("`joints`", &joint_names(), &names));
+            return Err(self.fields.format("joints", &joint_names(), &names));
         }
-        let frame_rate = match options.frame_rate {
+        let frame_rate = match self.fields.options.frame_rate {
             Some(given) => given,
-            None => FrameRate::new(self.value("frame_rate", Array::number)?)?,
+            None => FrameRate::new(self.fields.number("frame_rate")?)?,
         };
 
-        let (rotations, shape) = self.numbers("rotations")?;
+        let (rotations, shape) = self.fields.numbers("rotations")?;
         let frames = match *shape.as_slice() {
             [frames, Joint::COUNT, 4] if frames > 0 => frames,
             _ => {
                 let found = format!("{shape:?}");
-                return Err(self.format("`rotations`", "[frames][22][4], frames above 0", &found));
+                let expected = "[frames][22][4], frames above 0";
+                return Err(self.fields.format("rotations", expected, &found));
             }
         };
-        if frames > options.limits.frames {
-            return Err(Error::Limit {
-                path: self.path.into(),
-                what: "the number of frames",
-                found: frames as u64,
-                limit: options.limits.frames as u64,
-            });
-        }
-        let (translations, shape) = self.numbers("root_translation")?;
+        self.fields.check_frames(frames)?;
+        let (translations, shape) = self.fields.numbers("root_translation")?;
         if shape != [frames, 3] {
-            let expected = format!("[{frames}][3]");
-            return Err(self.format("`root_translation`", &expected, &format!("{shape:?}")));
+            let (expected, found) = (format!("[{frames}][3]"), format!("{shape:?}"));
+            return Err(self.fields.format("root_translation", &expected, &found));
         }
-        let (rest_pelvis, _) = self.numbers("rest_pelvis")?;
+        let (rest_pelvis, _) = self.fields.numbers("rest_pelvis")?;
         let rest_pelvis = match *rest_pelvis.as_slice() {
             [x, y, z] if Vec3::new(x, y, z).is_finite() => Vec3::new(x, y, z),
             _ => {
                 let found = format!("{rest_pelvis:?}");
-                return Err(self.format("`rest_pelvis`", "3 finite numbers", &found));
+                return Err(self
+                    .fields
+                    .format("rest_pelvis", "3 finite numbers", &found));
             }
         };
         let shape = self.shape()?;
@@ -188,13 +188,17 @@ impl Reader<'_> {
             translations.map(Vec3::from_array).collect(),
             rotations.map(Quat::from_array).collect(),
         )
-        .map_err(|error| self.format("the motion", "finite rotations", &error.to_string()))?;
+        .map_err(|error| {
+            let found = error.to_string();
+            self.fields
+                .format_at("the motion", "finite rotations", &found)
+        })?;
 
         let name = self.optional_text("name")?;
         let notes = self.optional_text("notes")?.unwrap_or_default();
         Ok(Recording {
             motion,
-            name: name.unwrap_or_else(|| stem(self.path)),
+            name: name.unwrap_or_else(|| stem(self.fields.path)),
             rest_pelvis,
             source: self.optional_text("source")?,
             licence: self.optional_text("licence")?,
@@ -207,11 +211,13 @@ impl Reader<'_> {
             return Ok(None);
         };
         let Some((_, space)) = SPACES.into_iter().find(|(known, _)| *known == name) else {
-            return Err(self.format("`shape_space`", "`open`, `smpl` or `smplx`", &name));
+            let expected = "`open`, `smpl` or `smplx`";
+            return Err(self.fields.format("shape_space", expected, &name));
         };
-        let (betas, _) = self.numbers("betas")?;
+        let (betas, _) = self.fields.numbers("betas")?;
         if let Some(beta) = betas.iter().find(|beta| !beta.is_finite()) {
-            return Err(self.format("`betas`", "finite numbers", &beta.to_string()));
+            let found = beta.to_string();
+            return Err(self.fields.format("betas", "finite numbers", &found));
         }
         Ok(Some(MotionShape {
             space,
@@ -220,38 +226,11 @@ impl Reader<'_> {
         }))
     }
 
-    fn numbers(&mut self, key: &str) -> Result<(Vec<f32>, Vec<usize>), Error> {
-        self.value(key, |array| Ok((array.to_f32()?, array.shape().to_vec())))
-    }
-
     fn optional_text(&mut self, key: &str) -> Result<Option<String>, Error> {
-        if !self.archive.contains(key) {
+        if !self.fields.contains(key) {
             return Ok(None);
         }
-        self.value(key, Array::text).map(Some)
-    }
-
-    fn value<T>(
-        &mut self,
-        key: &str,
-        value: impl Fn(&Array) -> Result<T, ArrayError>,
-    ) -> Result<T, Error> {
-        let array = self.archive.array(key);
-        array
-            .and_then(|array| value(&array))
-            .map_err(|source| Error::Array {
-                path: self.path.into(),
-                source,
-            })
-    }
-
-    fn format(&self, place: &str, expected: &str, found: &str) -> Error {
-        Error::Format {
-            path: self.path.into(),
-            place: place.into(),
-            expected: expected.into(),
-            found: found.into(),
-        }
+        self.fields.text(key).map(Some)
     }
 }
 

@@ -171,6 +171,11 @@ pub fn parse_motion(
 }
 
 fn parse_parts(bytes: Vec<u8>, path: &Path, options: &ReadOptions) -> Result<Vec<Part>, Error> {
+    let unpacked = physique_files::unpacked(bytes, options.limits.bytes);
+    let bytes = unpacked.map_err(|source| Error::Data {
+        path: path.into(),
+        source,
+    })?;
     match Content::of(&bytes) {
         Content::Npz => arrays::from_npz(bytes, path, options),
         Content::Arrays => arrays::from_bytes(bytes, path, options),

@@ -84,7 +84,7 @@ fn a_file_of_no_known_format_is_told_what_it_looks_like() {
         (b"{\"poses\": []}".to_vec(), "JSON without `Frames`"),
         (b"hello, world".to_vec(), "begins with `hello, world`"),
         (b"# only a comment".to_vec(), "begins with ``"),
-        (archive.finish().unwrap(), "arrays [joints]"),
+        (archive.finish().unwrap(), "`joints`: an array [1]"),
     ] {
         let error = parse(bytes).unwrap_err();
         assert!(matches!(error, Error::UnknownFormat { .. }), "{error}");

@@ -100,6 +100,11 @@ impl Archive {
         }
     }
 
+    /// Gives the bytes of the archive back.
+    pub fn into_bytes(self) -> Vec<u8> {
+        self.zip.into_inner().into_inner()
+    }
+
     fn npy(&mut self, key: &str) -> Result<Vec<u8>, ArrayError> {
         match self.zip.index_for_name(&format!("{key}.npy")) {
             Some(index) => self.unpack(index, key),

@@ -17,6 +17,9 @@ pub(super) enum Global {
     Bytes,
     Set,
     OrderedDict,
+    DefaultDict,
+    /// What a default dictionary makes of missing keys; never called.
+    Factory,
     JoblibArray,
     /// A class of which only the attributes are read.
     Record(&'static str),
@@ -45,7 +48,9 @@ impl Global {
             (b"__builtin__" | b"builtins", b"object") => Self::BaseObject,
             (b"__builtin__" | b"builtins", b"bytes" | b"bytearray") => Self::Bytes,
             (b"__builtin__" | b"builtins", b"set" | b"frozenset") => Self::Set,
+            (b"__builtin__" | b"builtins", b"dict" | b"list" | b"int" | b"float") => Self::Factory,
             (b"collections", b"OrderedDict") => Self::OrderedDict,
+            (b"collections", b"defaultdict") => Self::DefaultDict,
             (b"joblib.numpy_pickle", b"NumpyArrayWrapper") => Self::JoblibArray,
             (b"chumpy.ch", b"Ch") => Self::Record("chumpy.ch.Ch"),
             (b"chumpy.reordering", b"Select") => Self::Record("chumpy.reordering.Select"),
@@ -75,6 +80,8 @@ impl Global {
             Self::Bytes => "bytes",
             Self::Set => "set",
             Self::OrderedDict => "collections.OrderedDict",
+            Self::DefaultDict => "collections.defaultdict",
+            Self::Factory => "a maker of default values",
             Self::JoblibArray => "joblib.numpy_pickle.NumpyArrayWrapper",
             Self::Record(name) => name,
             Self::TorchTensor => "torch._utils._rebuild_tensor_v2",

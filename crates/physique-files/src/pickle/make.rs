@@ -76,6 +76,18 @@ impl Machine {
                 _ => Err(self.wrong(class, "a list", arguments)),
             },
             Global::OrderedDict => self.ordered_dict(arguments),
+            Global::DefaultDict => match *arguments {
+                [] => self.add(Node::Dict(Vec::new())),
+                [factory]
+                    if matches!(
+                        self.node(factory),
+                        Node::None | Node::Global(Global::Factory)
+                    ) =>
+                {
+                    self.add(Node::Dict(Vec::new()))
+                }
+                _ => Err(self.wrong(class, "a plain type for missing values", arguments)),
+            },
             _ => Err(self.wrong(class, "to be called otherwise", arguments)),
         }
     }

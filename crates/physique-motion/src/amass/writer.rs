@@ -5,10 +5,12 @@ use std::path::Path;
 use glam::Vec3;
 use physique_body::Joint;
 
-use super::{SMPL_REST_PELVIS, SMPLH_JOINTS, SMPLX_JOINTS, SMPLX_REST_PELVIS, turn};
+use super::{SMPL_REST_PELVIS, SMPLX_REST_PELVIS};
 use crate::npz::{ArchiveWriter, ArrayError};
+use crate::smpl_motion::{SMPLH_JOINTS, SMPLX_JOINTS};
+use crate::world::World;
 use crate::write_file::write_file;
-use crate::{Error, Motion, ShapeSpace, UpAxis};
+use crate::{Error, Motion, ShapeSpace};
 
 /// Shape coefficients that AMASS stores.
 const BETAS: usize = 16;
@@ -52,7 +54,7 @@ pub fn write(
 /// # Errors
 /// [`ArrayError::Write`] for a motion that outgrows the ZIP format.
 pub fn to_npz(motion: &Motion, rest_pelvis: Option<Vec3>) -> Result<AmassFile, ArrayError> {
-    let up = UpAxis::Z;
+    let world = World::ZUp;
     let shape = motion.shape();
     let is_smplx = shape.is_some_and(|shape| shape.space == ShapeSpace::SmplX);
     let (joints, mean_pelvis) = if is_smplx {
@@ -63,7 +65,7 @@ pub fn to_npz(motion: &Motion, rest_pelvis: Option<Vec3>) -> Result<AmassFile, A
     let pelvis = rest_pelvis.unwrap_or(mean_pelvis).as_dvec3();
     let frames = motion.frame_count();
 
-    let file_from_ours = turn::ours_from_file(up).inverse();
+    let file_from_ours = world.ours_from_file().inverse();
     let mut poses = Vec::with_capacity(frames * joints * 3);
     for frame in 0..frames {
         for (joint, rotation) in motion.frame_rotations(frame).iter().enumerate() {
@@ -83,7 +85,7 @@ pub fn to_npz(motion: &Motion, rest_pelvis: Option<Vec3>) -> Result<AmassFile, A
     let trans: Vec<f64> = motion
         .root_translation()
         .iter()
-        .flat_map(|ours| (turn::to_file(up, ours.as_dvec3() + pelvis) - pelvis).to_array())
+        .flat_map(|ours| (world.to_file(ours.as_dvec3() + pelvis) - pelvis).to_array())
         .collect();
 
     let mut notes = Vec::new();

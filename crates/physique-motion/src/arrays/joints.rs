@@ -41,7 +41,10 @@ impl Axes {
                 [frames, j, 3] if j == joints => axes(false, None, frames, false),
                 [motions, frames, j, 3] if j == joints => axes(false, Some(motions), frames, false),
                 [j, 3, frames] if j == joints => axes(false, None, frames, true),
-                [motions, j, 3, frames] if j == joints => axes(false, Some(motions), frames, true),
+                // Three frames would be rotation matrices.
+                [motions, j, 3, frames] if j == joints && frames != 3 => {
+                    axes(false, Some(motions), frames, true)
+                }
                 _ => None,
             }
         })
@@ -138,6 +141,7 @@ pub(super) fn clip(
             axes.format()
         ));
         let features = MotionFeatures::new(rate, axes.skeleton, rows).map_err(not_a_motion)?;
+        let features = in_own_units(context, features, &place(), &mut notes)?;
         recover_from_positions(&features)
     } else {
         let positions = rows.as_chunks().0.iter().copied().map(Vec3::from_array);
@@ -145,6 +149,46 @@ pub(super) fn clip(
     };
     let positions = positions.map_err(not_a_motion)?;
     Ok(SourceMotion::Positions(PositionClip { positions, notes }))
+}
+
+/// Features with their normalisation undone, where they have one.
+fn in_own_units(
+    context: &Context<'_>,
+    features: MotionFeatures,
+    place: &str,
+    notes: &mut Vec<String>,
+) -> Result<MotionFeatures, Error> {
+    let statistics = context.options.statistics.as_ref();
+    match (features.look_normalised(), statistics) {
+        (false, None) => Ok(features),
+        (false, Some(_)) => {
+            notes.push(
+                "Mean and deviation were given, but the features are not normalised: they were read \
+                 as they are."
+                    .into(),
+            );
+            Ok(features)
+        }
+        (true, Some(statistics)) if statistics.skeleton() == features.skeleton() => {
+            notes.push("Normalisation was undone with the mean and deviation given.".into());
+            let mut values = features.values().to_vec();
+            statistics.denormalise(&mut values);
+            MotionFeatures::new(features.frame_rate(), features.skeleton(), values)
+        }
+        (true, statistics) => {
+            let expected = "features in their own units, or the mean and deviation of their data set \
+                (--mean and --std)";
+            let found = match statistics {
+                None => "features that look normalised".into(),
+                Some(other) => format!(
+                    "features that look normalised, of {} numbers, and statistics of {}",
+                    features.skeleton().feature_count(),
+                    other.skeleton().feature_count()
+                ),
+            };
+            Err(context.format(place, expected, found))
+        }
+    }
 }
 
 #[cfg(test)]
@@ -173,7 +217,13 @@ mod tests {
         ] {
             assert_eq!(seen(shape), Some(expected), "{shape:?}");
         }
-        for shape in [&[263][..], &[60, 66], &[60, 24, 3], &[2, 3, 60, 22, 3]] {
+        for shape in [
+            &[263][..],
+            &[60, 66],
+            &[60, 24, 3],
+            &[60, 22, 3, 3],
+            &[2, 3, 60, 22, 3],
+        ] {
             assert_eq!(seen(shape), None, "{shape:?}");
         }
     }

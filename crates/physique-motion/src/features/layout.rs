@@ -50,6 +50,28 @@ impl FeatureLayout {
         }
     }
 
+    /// What a column of the skeleton's features holds, in words: `position of left_knee, y`.
+    pub(super) fn describe(&self, skeleton: FeatureSkeleton, column: usize) -> String {
+        let joint = |index: usize| skeleton.joint_name(index).unwrap_or("a joint");
+        let axis = |index: usize| ["x", "y", "z"][index % 3];
+        let within = |block: &Range<usize>| block.contains(&column).then(|| column - block.start);
+        if column == self.root_turn {
+            "turn of the root".into()
+        } else if let Some(index) = within(&self.root_velocity) {
+            format!("velocity of the root, {}", ["x", "z"][index % 2])
+        } else if column == self.root_height {
+            "height of the root".into()
+        } else if let Some(index) = within(&self.positions) {
+            format!("position of {}, {}", joint(1 + index / 3), axis(index))
+        } else if let Some(index) = within(&self.rotations) {
+            format!("rotation of {}", joint(1 + index / 6))
+        } else if let Some(index) = within(&self.velocities) {
+            format!("velocity of {}, {}", joint(index / 3), axis(index))
+        } else {
+            "contact of a foot".into()
+        }
+    }
+
     /// The seven blocks as ranges: the grain at which standard deviations are averaged.
     pub fn blocks(&self) -> [Range<usize>; 7] {
         [
@@ -67,6 +89,19 @@ impl FeatureLayout {
 #[cfg(test)]
 mod tests {
     use super::{FeatureLayout, FeatureSkeleton};
+
+    #[test]
+    fn columns_have_names() {
+        let skeleton = FeatureSkeleton::HumanMl3d;
+        let layout = FeatureLayout::of(skeleton);
+        let name = |column| layout.describe(skeleton, column);
+        assert_eq!(name(0), "turn of the root");
+        assert_eq!(name(2), "velocity of the root, z");
+        assert_eq!(name(4), "position of left_hip, x");
+        assert_eq!(name(192), "rotation of right_wrist");
+        assert_eq!(name(193 + 4), "velocity of left_hip, y");
+        assert_eq!(name(262), "contact of a foot");
+    }
 
     #[test]
     fn columns_are_those_of_the_data_sets() {

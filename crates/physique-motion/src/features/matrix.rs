@@ -1,5 +1,7 @@
 //! Features over time: the matrix that networks see.
 
+use glam::Vec3;
+
 use super::{FeatureLayout, FeatureSkeleton};
 use crate::{Error, FrameRate};
 
@@ -33,9 +35,11 @@ impl MotionFeatures {
             return Err(Error::NoFrames);
         }
         if let Some(index) = values.iter().position(|value| !value.is_finite()) {
+            let column = index % columns;
             return Err(Error::FeatureNotFinite {
                 frame: index / columns,
-                column: index % columns,
+                column,
+                what: FeatureLayout::of(skeleton).describe(skeleton, column),
             });
         }
         Ok(Self {
@@ -58,6 +62,46 @@ impl MotionFeatures {
     /// Where each block lies in a row.
     pub const fn layout(&self) -> FeatureLayout {
         FeatureLayout::of(self.skeleton)
+    }
+
+    /// Whether these look like features from which a mean was taken and that were divided by a
+    /// deviation, as networks see them.
+    ///
+    /// Features in their own units hold rotations, whose first three numbers are a unit vector,
+    /// and bones about as long as the data set's; normalised ones hold neither. Zeros in place of
+    /// the rotations, as some programs write, are not mistaken for it.
+    pub fn look_normalised(&self) -> bool {
+        let layout = self.layout();
+        let (mut off, mut count) = (0.0, 0.0);
+        for row in self.rows() {
+            for numbers in row[layout.rotations.clone()].as_chunks::<6>().0 {
+                let length = Vec3::new(numbers[0], numbers[1], numbers[2]).length();
+                off += f64::from((length - 1.0).abs());
+                count += 1.0;
+            }
+        }
+        off > 0.3 * count && !self.has_plausible_bones()
+    }
+
+    /// Whether most bones are, in the mean, between half and twice as long as the data set's.
+    fn has_plausible_bones(&self) -> bool {
+        let layout = self.layout();
+        let offsets = self.skeleton.offsets();
+        let mut lengths = vec![0.0_f32; offsets.len()];
+        for row in self.rows() {
+            let at = |joint: usize| match joint.checked_sub(1) {
+                None => Vec3::new(0.0, row[layout.root_height], 0.0),
+                Some(index) => Vec3::from_slice(&row[layout.positions.start + 3 * index..]),
+            };
+            for [parent, joint] in self.skeleton.bones() {
+                lengths[joint] += at(parent).distance(at(joint));
+            }
+        }
+        let plausible = lengths.iter().zip(&offsets).filter(|(sum, offset)| {
+            let ratio = *sum / (self.frame_count() as f32 * offset.length());
+            (0.5..2.0).contains(&ratio)
+        });
+        4 * plausible.count() >= 3 * (offsets.len() - 1)
     }
 
     /// Number of frames, at least 1.

@@ -1,7 +1,11 @@
 //! Mean and standard deviation of features, and normalising by them.
 
+use std::path::Path;
+
 use super::{FeatureLayout, FeatureSkeleton, MotionFeatures};
-use crate::Error;
+use crate::npz::{Array, ArrayLimits};
+use crate::read_file::read_file;
+use crate::{Error, Limits};
 
 /// Mean and standard deviation of every column over a data set.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +55,33 @@ impl FeatureStatistics {
             mean,
             deviation,
         })
+    }
+
+    /// Reads the two arrays of a data set, `Mean.npy` and `Std.npy`: their length says which.
+    ///
+    /// # Errors
+    /// [`Error::Io`], [`Error::Array`] for anything but an array of numbers, [`Error::Format`] for
+    /// another length, and those of [`Self::new`].
+    pub fn read(
+        mean: impl AsRef<Path>,
+        deviation: impl AsRef<Path>,
+        limits: &Limits,
+    ) -> Result<Self, Error> {
+        let mean = numbers(mean.as_ref(), limits)?;
+        let values = numbers(deviation.as_ref(), limits)?;
+        let skeletons = FeatureSkeleton::ALL.into_iter();
+        let skeleton = skeletons
+            .filter(|skeleton| skeleton.feature_count() == mean.len())
+            .find(|_| mean.len() == values.len());
+        let Some(skeleton) = skeleton else {
+            return Err(Error::Format {
+                path: deviation.as_ref().into(),
+                place: "the array".into(),
+                expected: "263 or 251 numbers, as many as of the mean".into(),
+                found: format!("{} of the mean, {} here", mean.len(), values.len()),
+            });
+        };
+        Self::new(skeleton, mean, values)
     }
 
     /// Which features these are of.
@@ -113,6 +144,21 @@ impl FeatureStatistics {
             }
         }
     }
+}
+
+/// All numbers of a `.npy`.
+fn numbers(path: &Path, limits: &Limits) -> Result<Vec<f32>, Error> {
+    let array_limits = ArrayLimits {
+        bytes: limits.bytes,
+        ..ArrayLimits::default()
+    };
+    let bytes = read_file(path, limits.bytes)?;
+    let array = Array::from_npy("array", bytes, &array_limits);
+    let numbers = array.and_then(|array| array.to_f32());
+    numbers.map_err(|source| Error::Array {
+        path: path.into(),
+        source,
+    })
 }
 
 /// Gathers statistics motion by motion, in memory of one row (Welford's algorithm, 64 bits).
