@@ -49,9 +49,35 @@ pub(crate) struct ReadArguments {
     /// Frame rate of the files, where they do not state it or state it wrongly.
     #[arg(long, value_name = "FPS")]
     pub(crate) frame_rate: Option<f64>,
+    /// Axis that points up in the files, where they do not say.
+    #[arg(long, value_enum, value_name = "AXIS")]
+    pub(crate) up_axis: Option<UpAxisName>,
+    /// Mean of the data set (`Mean.npy`), for features that are normalised.
+    #[arg(long, value_name = "FILE", requires = "std")]
+    pub(crate) mean: Option<PathBuf>,
+    /// Deviation of the data set (`Std.npy`), for features that are normalised.
+    #[arg(long, value_name = "FILE", requires = "mean")]
+    pub(crate) std: Option<PathBuf>,
+    /// How rotations are found for files of joint positions and features.
+    #[arg(long, value_enum, default_value_t = RotationsName::InverseKinematics)]
+    pub(crate) rotations: RotationsName,
     /// TOML file that names the source's joints: lines such as `left_hip = "LeftUpLeg"`.
     #[arg(long, value_name = "FILE")]
     pub(crate) mapping: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum UpAxisName {
+    Y,
+    Z,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum RotationsName {
+    /// Joints are met; the pelvis keeps its tilt, and limbs their twist where it can be told.
+    InverseKinematics,
+    /// The self-intersection paper's own layer: heading only, no twist.
+    PaperLayer,
 }
 
 #[derive(Debug, Args)]

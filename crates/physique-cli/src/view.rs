@@ -1,13 +1,14 @@
 //! `physique view`.
 
 use anyhow::{Context, Result};
-use physique::load::{LoadOptions, load};
+use physique::load::{LoadOptions, RotationsFrom, load};
+use physique::motion::features::FeatureStatistics;
 use physique::motion::mapping::{MappingOptions, NameTable};
-use physique::motion::{FrameRate, ReadOptions};
+use physique::motion::{FrameRate, Limits, ReadOptions, UpAxis};
 use physique::{ScoreOptions, Scorer};
 use physique_view::MotionSheet;
 
-use crate::arguments::{ReadArguments, ViewArguments};
+use crate::arguments::{ReadArguments, RotationsName, UpAxisName, ViewArguments};
 use crate::exit::Exit;
 
 pub(crate) fn run(arguments: &ViewArguments) -> Result<Exit> {
@@ -48,10 +49,25 @@ pub(crate) fn load_options(arguments: &ReadArguments) -> Result<LoadOptions> {
         }
         None => None,
     };
+    let limits = Limits::default();
+    let statistics = match (&arguments.mean, &arguments.std) {
+        (Some(mean), Some(std)) => Some(FeatureStatistics::read(mean, std, &limits)?),
+        _ => None,
+    };
     Ok(LoadOptions {
         read: ReadOptions {
+            limits,
             frame_rate,
+            up_axis: arguments.up_axis.map(|name| match name {
+                UpAxisName::Y => UpAxis::Y,
+                UpAxisName::Z => UpAxis::Z,
+            }),
+            statistics,
             ..ReadOptions::default()
+        },
+        rotations: match arguments.rotations {
+            RotationsName::InverseKinematics => RotationsFrom::InverseKinematics,
+            RotationsName::PaperLayer => RotationsFrom::PaperLayer,
         },
         mapping: MappingOptions {
             table,

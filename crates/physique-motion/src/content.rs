@@ -25,7 +25,7 @@ pub(crate) enum Content {
 impl Content {
     pub(crate) fn of(bytes: &[u8]) -> Self {
         /// Marks of files that people have, but that are not read.
-        const MARKS: [(&[u8], &str); 4] = [
+        const MARKS: [(&[u8], &str); 3] = [
             (
                 b"glTF",
                 "a binary glTF model, which is written but not read",

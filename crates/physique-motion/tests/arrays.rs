@@ -6,9 +6,7 @@ use std::path::PathBuf;
 
 use glam::Vec3;
 use physique_body::Joint;
-use physique_motion::features::{
-    FeatureSkeleton, FeatureStatistics, JointPositions, extract,
-};
+use physique_motion::features::{FeatureSkeleton, FeatureStatistics, JointPositions, extract};
 use physique_motion::npz::npy_f32;
 use physique_motion::{
     Error, FrameRate, NamedMotion, PositionClip, ReadOptions, SourceMotion, parse_motion,
@@ -148,7 +146,9 @@ fn arrays_of_other_shapes_are_told_what_was_expected() {
 fn normalised_features_are_refused_or_undone() {
     let features = extract(&walk(30)).unwrap();
     // A deviation for each block and a mean of its own for each column, as data sets have.
-    let mean: Vec<f32> = (0..263).map(|column| 0.3 + 0.1 * (column as f32).sin()).collect();
+    let mean: Vec<f32> = (0..263)
+        .map(|column| 0.3 + 0.1 * (column as f32).sin())
+        .collect();
     let mut deviation = vec![0.12; 263];
     deviation[67..193].fill(0.3);
     deviation[259..].fill(0.36);
@@ -158,7 +158,10 @@ fn normalised_features_are_refused_or_undone() {
     let bytes = npy_f32(&[29, 263], &values).unwrap();
     let error = parse_motion(bytes.clone(), "gen.npy", &ReadOptions::default()).unwrap_err();
     let error = error.to_string();
-    assert!(error.contains("look normalised") && error.contains("--mean"), "{error}");
+    assert!(
+        error.contains("look normalised") && error.contains("--mean"),
+        "{error}"
+    );
 
     let options = ReadOptions {
         statistics: Some(statistics),
@@ -167,8 +170,17 @@ fn normalised_features_are_refused_or_undone() {
     let clip = positions(parse_motion(bytes, "gen.npy", &options).unwrap());
     let plain = npy_f32(&[29, 263], features.values()).unwrap();
     let expected = positions(parse_motion(plain, "walk.npy", &options).unwrap());
-    assert!(expected.notes.iter().any(|note| note.contains("not normalised")));
-    let distances = clip.positions.positions().iter().zip(expected.positions.positions());
+    assert!(
+        expected
+            .notes
+            .iter()
+            .any(|note| note.contains("not normalised"))
+    );
+    let distances = clip
+        .positions
+        .positions()
+        .iter()
+        .zip(expected.positions.positions());
     let largest = distances.map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
     assert!(largest < 1e-4, "{largest} m");
 }
@@ -179,7 +191,9 @@ fn a_feature_that_is_no_number_is_named_with_its_joint() {
     let mut values = features.values().to_vec();
     values[3 * 263 + 4 + 3 * 3] = f32::NAN;
     let bytes = npy_f32(&[7, 263], &values).unwrap();
-    let error = parse_motion(bytes, "nan.npy", &ReadOptions::default()).unwrap_err().to_string();
+    let error = parse_motion(bytes, "nan.npy", &ReadOptions::default())
+        .unwrap_err()
+        .to_string();
     for word in ["nan.npy", "Frame 3", "position of left_knee, x"] {
         assert!(error.contains(word), "{error}");
     }
