@@ -23,6 +23,7 @@
 
 mod channel;
 mod clip;
+mod figure;
 mod locate;
 mod motion;
 mod skeleton;

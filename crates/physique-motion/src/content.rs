@@ -13,6 +13,8 @@ pub(crate) enum Content {
     /// A NumPy array, a pickle or a PyTorch file.
     Arrays,
     Bvh,
+    /// Binary, or JSON.
+    Gltf,
     /// The `.amc` of a pair.
     AcclaimMotion,
     DeepMimic,
@@ -25,11 +27,7 @@ pub(crate) enum Content {
 impl Content {
     pub(crate) fn of(bytes: &[u8]) -> Self {
         /// Marks of files that people have, but that are not read.
-        const MARKS: [(&[u8], &str); 3] = [
-            (
-                b"glTF",
-                "a binary glTF model, which is written but not read",
-            ),
+        const MARKS: [(&[u8], &str); 2] = [
             (b"Kaydara FBX", "Autodesk FBX; Blender converts it to BVH"),
             (b"\xfd7zXZ", "an xz file; unpack it first"),
         ];
@@ -43,6 +41,9 @@ impl Content {
         }
         if let Some((_, name)) = MARKS.iter().find(|(mark, _)| bytes.starts_with(mark)) {
             return Self::Other((*name).into());
+        }
+        if bytes.starts_with(b"glTF") {
+            return Self::Gltf;
         }
         if bytes.starts_with(b"\x93NUMPY") || TorchFile::looks_like_legacy(bytes) {
             return Self::Arrays;
@@ -67,11 +68,13 @@ impl Content {
             return Self::Csv(content);
         }
         if starts_with("{") {
-            let mentions_frames = text.windows(8).any(|window| window == b"\"Frames\"");
-            return if mentions_frames {
+            let mentions = |key: &[u8]| text.windows(key.len()).any(|window| window == key);
+            return if mentions(b"\"asset\"") {
+                Self::Gltf
+            } else if mentions(b"\"Frames\"") {
                 Self::DeepMimic
             } else {
-                Self::Other("JSON without `Frames`".into())
+                Self::Other("JSON, but neither glTF nor DeepMimic's".into())
             };
         }
         if Pickle::looks_like(bytes) {

@@ -106,7 +106,7 @@ pub enum Error {
     },
     /// A file of no known format.
     #[error(
-        "{path} looks like {looks_like}; motions are read from BVH, ASF/AMC, AMASS (.npz), Physique's own .motion.npz, HumanML3D's and KIT's arrays (.npy), MDM's results.npy and DeepMimic's JSON."
+        "{path} looks like {looks_like}; motions are read from BVH, ASF/AMC, glTF, AMASS (.npz), Physique's own .motion.npz, HumanML3D's and KIT's arrays (.npy), MDM's results.npy and DeepMimic's JSON."
     )]
     UnknownFormat {
         /// The file.

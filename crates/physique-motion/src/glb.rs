@@ -1,5 +1,7 @@
-//! Skinned, animated figures as binary glTF 2.0 (`.glb`): one file for Blender, Unreal, Unity,
-//! three.js and the viewers of phones and browsers.
+//! Skinned, animated figures as glTF 2.0: out as one binary file (`.glb`) for Blender, Unreal,
+//! Unity, three.js and the viewers of phones and browsers; in from `.glb` and `.gltf`.
+//!
+//! # Out
 //!
 //! The file holds the body's rest mesh with normals, a skin of its joints (the rest pose is the
 //! bind pose), and one animation: a rotation track for each of the 22 joints and a translation
@@ -8,12 +10,27 @@
 //! seconds. Pose-dependent corrections of a body model, which glTF's skins cannot express, are
 //! left out: the figure is what linear blend skinning gives.
 //!
+//! # In
+//!
+//! Every animation of a file is a motion of the figure that it moves.
+//!
+//! | question | rule |
+//! |---|---|
+//! | joints | The joints of the skin that most tracks move, and of other skins on the same figure; without skins, the animated nodes and all below them. Nodes above that stand still are folded into the root. |
+//! | rest pose | The skin's inverse bind matrices; the nodes' own pose where they are missing or where the figure would not stand upright, with a note. |
+//! | frame rate | Where the fullest track has keys at an even step: that step. Otherwise its smallest step, at most 240 a second; 30 where keys are farther than 0.1 s apart. A note says which. |
+//! | between keys | `LINEAR` (the short way), `STEP` and `CUBICSPLINE`, as the standard defines them. |
+//! | scale | Scales of nodes multiply bone lengths (armatures of 0.01, as Blender exports them); animated scales are left out, with a note. |
+//! | unit | Metres, as the standard says; where only centimetres, millimetres or inches make a human, those, with a note. |
+//! | buffers | In the file, in base64, or in files in the same folder or below it; nothing else is opened. |
+//!
 //! Specification: <https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html>.
 
 mod animation;
 mod buffer;
 mod container;
 mod figure;
+mod read;
 
 use std::path::Path;
 
@@ -22,6 +39,9 @@ use physique_body::{Body, Joint};
 
 use crate::write_file::write_file;
 use crate::{Error, Motion};
+
+pub(crate) use read::parts;
+pub use read::{parse, read};
 
 /// A mesh at rest and what binds it to its joints; the first 22 joints are [`Joint`]'s.
 #[derive(Clone, Copy, Debug)]

@@ -11,7 +11,7 @@ use crate::npz::{Archive, ArrayLimits};
 use crate::read_file::read_file;
 use crate::{
     Error, FrameRate, Limits, PositionClip, Recording, SkeletonClip, UpAxis, acclaim, arrays, csv,
-    deep_mimic,
+    deep_mimic, glb,
 };
 
 /// What to take for granted where a file is silent or wrong.
@@ -143,7 +143,7 @@ pub fn read_motion(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Sour
 }
 
 /// Reads the bytes of a file of any known format; `path` names it in errors and motions, and files
-/// that belong to it (the skeleton of an `.amc`) are looked for beside it.
+/// that belong to it (the skeleton of an `.amc`, the buffers of a `.gltf`) are looked for beside it.
 ///
 /// # Errors
 /// As [`read_motions`], without [`Error::Io`].
@@ -194,6 +194,7 @@ fn parse_parts(bytes: Vec<u8>, path: &Path, options: &ReadOptions) -> Result<Vec
             let clip = acclaim::parse_beside(&bytes, path, options)?;
             Ok(vec![Part::only("ASF/AMC", SourceMotion::Skeleton(clip))])
         }
+        Content::Gltf => glb::parts(&bytes, path, options),
         Content::DeepMimic => {
             let clip = deep_mimic::parse(&bytes, path, options)?;
             Ok(vec![Part::only("DeepMimic", SourceMotion::Skeleton(clip))])

@@ -77,11 +77,10 @@ fn a_file_of_no_known_format_is_told_what_it_looks_like() {
     archive.f64("joints", &[1], &[0.0]).unwrap();
     for (bytes, expected) in [
         (Vec::new(), "an empty file"),
-        (b"glTF\x02\0\0\0".to_vec(), "glTF"),
         (b"Kaydara FBX Binary".to_vec(), "FBX"),
         // A pickle of an empty list.
         (b"\x80\x02].".to_vec(), "a list of 0"),
-        (b"{\"poses\": []}".to_vec(), "JSON without `Frames`"),
+        (b"{\"poses\": []}".to_vec(), "JSON, but neither glTF"),
         (b"hello, world".to_vec(), "begins with `hello, world`"),
         (b"# only a comment".to_vec(), "begins with ``"),
         (archive.finish().unwrap(), "`joints`: an array [1]"),

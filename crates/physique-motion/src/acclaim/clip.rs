@@ -2,8 +2,8 @@
 
 use glam::{DVec3, Quat};
 
+use super::figure::{Bone, Figure};
 use super::motion::Motion;
-use super::skeleton::{Bone, Figure};
 use crate::unspoken::{self, LengthUnit};
 use crate::{Conversion, Error, FrameRate, ReadOptions, Skeleton, SkeletonClip, SkeletonJoint};
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use glam::{DQuat, DVec3, Quat};
 
 use super::channel::{Channel, turns};
-use super::skeleton::{Bone, Figure};
+use super::figure::{Bone, Figure};
 use super::text::{Line, lines};
 use crate::limits::check;
 use crate::{Error, Limits};

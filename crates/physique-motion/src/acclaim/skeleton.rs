@@ -1,56 +1,14 @@
 //! The `.asf` file: bones, their axes and which numbers move them.
 
-use std::collections::HashMap;
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
 
 use super::channel::{Channel, axis, turns};
+use super::figure::{Bone, Figure, in_order};
 use super::text::{Line, Words, lines};
 use crate::limits::check;
 use crate::{Error, Limits};
-
-/// A figure at rest, in the file's unit.
-pub(super) struct Figure {
-    /// Factor of the length unit; 1 where the file states none.
-    pub(super) length_factor: f64,
-    pub(super) in_degrees: bool,
-    /// The root first, then every bone after its parent.
-    pub(super) bones: Vec<Bone>,
-}
-
-/// The root, or a bone.
-#[derive(Clone, Default)]
-pub(super) struct Bone {
-    pub(super) name: String,
-    pub(super) parent: Option<usize>,
-    /// From the bone's start to its end, in the world's axes; for the root, its preset position.
-    pub(super) reach: DVec3,
-    /// The axes of its numbers in the world's; for the root, its preset orientation.
-    pub(super) axes: DQuat,
-    /// What its numbers mean, in their order.
-    pub(super) channels: Vec<Channel>,
-}
-
-impl Figure {
-    /// Of every bone, whether it has a tip instead of bones below it.
-    pub(super) fn ends_chain(&self) -> Vec<bool> {
-        let mut ends = vec![true; self.bones.len()];
-        ends[0] = false;
-        for parent in self.bones.iter().filter_map(|bone| bone.parent) {
-            ends[parent] = false;
-        }
-        ends
-    }
-
-    /// Indices by name in lower case.
-    pub(super) fn by_name(&self) -> HashMap<Vec<u8>, usize> {
-        let bones = self.bones.iter().enumerate();
-        bones
-            .map(|(index, bone)| (bone.name.to_ascii_lowercase().into_bytes(), index))
-            .collect()
-    }
-}
 
 enum Section {
     Units,
@@ -121,7 +79,7 @@ pub(super) fn parse(text: &[u8], path: &Path, limits: &Limits) -> Result<Figure,
                 )?;
                 draft.bone(&line)?;
             }
-            Section::Hierarchy => draft.edges(&line)?,
+            Section::Hierarchy => draft.edges(&line, path, limits)?,
             Section::Other => {}
         }
     }
@@ -218,15 +176,18 @@ impl Draft {
         Ok(())
     }
 
-    fn edges(&mut self, line: &Line<'_>) -> Result<(), Error> {
+    fn edges(&mut self, line: &Line<'_>, path: &Path, limits: &Limits) -> Result<(), Error> {
         let mut words = line.words().map(<[u8]>::to_ascii_lowercase);
         let parent = words.next().unwrap_or_default();
-        let children: Vec<Vec<u8>> = words.collect();
-        if children.is_empty() && !matches!(parent.as_slice(), b"begin" | b"end") {
+        let before = self.edges.len();
+        for child in words {
+            let edges = self.edges.len() as u64 + 1;
+            check(path, "the number of joints", edges, limits.joints as u64)?;
+            self.edges.push((parent.clone(), child));
+        }
+        if self.edges.len() == before && !matches!(parent.as_slice(), b"begin" | b"end") {
             return Err(line.error("a bone and its children", Some(line.text)));
         }
-        let edges = children.into_iter().map(|child| (parent.clone(), child));
-        self.edges.extend(edges);
         Ok(())
     }
 
@@ -253,55 +214,10 @@ impl Draft {
         }
         let mut drafts = vec![self.root];
         drafts.append(&mut self.bones);
-
-        let mut by_name = HashMap::new();
-        for (index, bone) in drafts.iter().enumerate() {
-            let name = bone.name.to_ascii_lowercase().into_bytes();
-            if by_name.insert(name, index).is_some() {
-                let expected = "every bone once";
-                return Err(error(":bonedata", expected, format!("{} twice", bone.name)));
-            }
-        }
-        let mut children = vec![Vec::new(); drafts.len()];
-        let mut has_parent = vec![false; drafts.len()];
-        has_parent[0] = true;
-        for (parent, child) in &self.edges {
-            let find = |name: &Vec<u8>| {
-                by_name.get(name).copied().ok_or_else(|| {
-                    let name = String::from_utf8_lossy(&name[..name.len().min(40)]).into_owned();
-                    error(":hierarchy", "names of bones", format!("\"{name}\""))
-                })
-            };
-            let (parent, child) = (find(parent)?, find(child)?);
-            if std::mem::replace(&mut has_parent[child], true) {
-                let found = format!("{} under a second parent", drafts[child].name);
-                return Err(error(":hierarchy", "a tree of bones below the root", found));
-            }
-            children[parent].push(child);
-        }
-
-        let mut bones = Vec::with_capacity(drafts.len());
-        let mut next = vec![(0, None, 1)];
-        while let Some((draft, parent, depth)) = next.pop() {
-            let what = "the depth of the hierarchy";
-            check(path, what, depth, limits.depth as u64)?;
-            let index = bones.len();
-            bones.push(Bone {
-                parent,
-                ..std::mem::take(&mut drafts[draft])
-            });
-            let below = children[draft].iter().rev();
-            next.extend(below.map(|&child| (child, Some(index), depth + 1)));
-        }
-        if bones.len() < drafts.len() {
-            let found = format!("{} of them below it", bones.len() - 1);
-            let expected = format!("all {} bones below the root", drafts.len() - 1);
-            return Err(error(":hierarchy", &expected, found));
-        }
         Ok(Figure {
             length_factor: self.length_factor,
             in_degrees: self.in_degrees,
-            bones,
+            bones: in_order(drafts, &self.edges, path, limits)?,
         })
     }
 }
