@@ -20,6 +20,8 @@ mod body_rest;
 mod figure;
 mod find;
 mod fit_error;
+mod floor;
+mod foot_tracks;
 mod human_joints;
 mod known_t_pose;
 mod legs;
@@ -31,6 +33,7 @@ mod report;
 mod retarget;
 mod shape;
 mod sides;
+mod slope;
 mod soles;
 mod spine;
 mod t_pose;
@@ -47,6 +50,8 @@ pub use report::{JointSource, MappingReport};
 
 use crate::{Error, Motion, SkeletonClip};
 use alignment::Alignment;
+use floor::Floor;
+use foot_tracks::FootTracks;
 use retarget::Retarget;
 
 /// How to map.
@@ -60,6 +65,9 @@ pub struct MappingOptions {
     /// Otherwise leg bones keep the source's directions exactly and feet slide by what the
     /// proportions differ.
     pub plant_feet: bool,
+    /// Turn the world so that the floor is level, where steps show that it slopes by 0.3 to 2
+    /// degrees as a whole: the recording's own frame was not level. On by default.
+    pub level_floor: bool,
     /// Let forearms take part of the twist of the wrists, as forearms do; on by default. Hands
     /// and the directions of all bones stay.
     pub share_wrist_twist: bool,
@@ -71,6 +79,7 @@ impl Default for MappingOptions {
             table: None,
             keep_t_pose: false,
             plant_feet: true,
+            level_floor: true,
             share_wrist_twist: true,
         }
     }
@@ -124,10 +133,20 @@ pub fn map_to_body(
     } else {
         t_pose_frames
     };
+    let feet = FootTracks::of(clip, &found.joints, t_pose_frames);
+    let floor = Floor::under(feet, body, options.level_floor);
+    notes.extend(floor.notes());
     let known_t_pose = NameTable::known_t_pose(&found.by, options.table.as_ref());
     let leads_with_t_pose = t_pose_frames > 0;
-    let alignment = Alignment::find(clip, &found.joints, body, leads_with_t_pose, known_t_pose);
-    let retarget = Retarget::new(clip, &found.joints, body, alignment, options)?;
+    let alignment = Alignment::find(
+        clip,
+        &found.joints,
+        body,
+        floor.soles,
+        leads_with_t_pose,
+        known_t_pose,
+    );
+    let retarget = Retarget::new(clip, &found.joints, body, alignment, &floor, options)?;
     let retarget = if is_own {
         retarget.on_ground_of_source()
     } else {

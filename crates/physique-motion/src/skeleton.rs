@@ -107,6 +107,19 @@ pub struct SkeletonPose {
 }
 
 impl SkeletonPose {
+    /// Turns the world with all in it.
+    pub(crate) fn turn(&mut self, turn: Quat) {
+        if turn == Quat::IDENTITY {
+            return;
+        }
+        for rotation in &mut self.rotations {
+            *rotation = (turn * *rotation).normalize();
+        }
+        for position in &mut self.positions {
+            *position = turn * *position;
+        }
+    }
+
     /// Forward kinematics: composes `local(joint)`, the rotation `parent_from_joint` and the
     /// joint's origin in its parent's frame, from the roots down. Reuses the memory of `self`.
     pub(crate) fn set(&mut self, skeleton: &Skeleton, local: impl Fn(usize) -> (Quat, Vec3)) {

@@ -15,6 +15,7 @@ use super::{
     human_joints::HumanJoints,
     known_t_pose::KnownTPose,
     reference,
+    soles::Soles,
 };
 use crate::{SkeletonClip, SkeletonPose};
 
@@ -50,6 +51,7 @@ impl Alignment {
         clip: &SkeletonClip,
         human: &HumanJoints,
         body: &BodyRest,
+        soles: Soles,
         leads_with_t_pose: bool,
         known_t_pose: Option<&KnownTPose>,
     ) -> Self {
@@ -94,7 +96,7 @@ impl Alignment {
         Self {
             note,
             ..found(
-                anatomy::joint_from_body(clip, human, body),
+                anatomy::joint_from_body(clip, human, body, soles),
                 AlignedBy::Anatomy,
             )
         }

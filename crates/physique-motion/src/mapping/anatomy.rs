@@ -30,6 +30,7 @@ pub(super) fn joint_from_body(
     clip: &SkeletonClip,
     human: &HumanJoints,
     body: &BodyRest,
+    soles: Soles,
 ) -> Vec<Quat> {
     let poses = spread(clip.frame_count(), MOST_FRAMES).map(|frame| clip.pose(frame));
     let mut anatomy = Anatomy {
@@ -37,7 +38,7 @@ pub(super) fn joint_from_body(
         human,
         body,
         rest: clip.skeleton().rest_pose(),
-        soles: Soles::measure(clip, human, body),
+        soles,
         poses: poses.collect(),
         joint_from_body: vec![Quat::IDENTITY; clip.skeleton().joint_count()],
     };

@@ -34,6 +34,7 @@ pub(super) fn unchanged(options: &MappingOptions) -> MappingOptions {
         table: options.table.clone(),
         keep_t_pose: options.keep_t_pose,
         plant_feet: false,
+        level_floor: false,
         share_wrist_twist: false,
     }
 }

@@ -9,6 +9,7 @@ use super::{
     body_rest::BodyRest,
     figure::ball_of_foot,
     fit_error::{FitError, FitErrorGatherer},
+    floor::Floor,
     human_joints::HumanJoints,
     legs::Leg,
     soles::Soles,
@@ -24,6 +25,8 @@ pub(super) struct Retarget<'a> {
     alignment: Alignment,
     spine: SpineWeights,
     soles: Soles,
+    /// Turns the source's world before anything else.
+    level_from_source: Quat,
     /// Body size over source size.
     scale: f32,
     plant_feet: bool,
@@ -51,6 +54,7 @@ impl<'a> Retarget<'a> {
         human: &'a HumanJoints,
         body: &'a BodyRest,
         alignment: Alignment,
+        floor: &Floor,
         options: &MappingOptions,
     ) -> Result<Self, Error> {
         let pose = clip.pose(0);
@@ -65,14 +69,14 @@ impl<'a> Retarget<'a> {
             });
         }
         let scale = body.leg_length() / leg;
-        let soles = Soles::measure(clip, human, body);
         Ok(Self {
             human,
             body,
             alignment,
             spine: SpineWeights::new(human, &pose, body),
-            ground: ground(&soles, body, scale),
-            soles,
+            ground: ground(&floor.soles, body, scale),
+            soles: floor.soles,
+            level_from_source: floor.level_from_source(),
             scale,
             plant_feet: options.plant_feet,
             share_twist: options.share_wrist_twist,
@@ -97,6 +101,7 @@ impl<'a> Retarget<'a> {
         let mut pose = SkeletonPose::default();
         for frame in first_frame..clip.frame_count() {
             clip.pose_into(frame, &mut pose);
+            pose.turn(self.level_from_source);
             let mut world = self.orient(&pose);
             let pelvis = self.place_pelvis(&pose, &world, ground);
             if self.plant_feet {
@@ -211,12 +216,10 @@ impl<'a> Retarget<'a> {
             let limbs = self.human.sides()[side];
             let mut goal = self.scaled(pose.positions[limbs.ankle], ground);
             if let Some((joint, offset)) = self.balls[side] {
-                // The lower of heel side and ball is what touches the ground: at the same height
-                // over it as in the source.
+                // What touches the ground is at the same height over it as in the source.
                 let ball = pose.positions[joint] + pose.rotations[joint] * offset;
-                let source = (pose.positions[limbs.ankle].y - self.soles.ankle_height)
-                    .min(ball.y - self.soles.ball_height)
-                    * self.scale;
+                let ankle_of_source = pose.positions[limbs.ankle];
+                let source = self.scale * self.soles.over_floor(ankle_of_source, Some(ball));
                 let sole = self.scaled(Vec3::Y * self.soles.ankle_height, ground).y
                     - self.body.height(ankle);
                 let ball = (world[ankle.index()] * self.body.bone(ankle, foot)).y + goal.y;

@@ -1,9 +1,9 @@
 //! How high ankles and balls of the feet are when the source stands.
 
+use glam::Vec3;
 use physique_body::Joint;
 
-use super::{body_rest::BodyRest, figure::ball_of_foot, human_joints::HumanJoints};
-use crate::{SkeletonClip, SkeletonPose, clip::spread};
+use super::{body_rest::BodyRest, foot_tracks::FootTracks};
 
 /// Heights of a standing foot of the source, in its own size and world, in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,32 +18,26 @@ pub(super) struct Soles {
 
 impl Soles {
     /// Measures over both feet: they stand in the lowest few of a hundred frames.
-    pub(super) fn measure(clip: &SkeletonClip, human: &HumanJoints, body: &BodyRest) -> Self {
-        const MOST_FRAMES: usize = 4000;
+    pub(super) fn measure(feet: &FootTracks, body: &BodyRest) -> Self {
         /// A line from ankle to ball steeper than this belongs to no standing foot.
         const STEEPEST: f32 = 1.0;
-        let balls = human
-            .sides()
-            .map(|limbs| ball_of_foot(clip.skeleton(), limbs));
-        let (mut ankles, mut tips, mut length) = (Vec::new(), Vec::new(), 0.0);
-        let mut pose = SkeletonPose::default();
-        for frame in spread(clip.frame_count(), MOST_FRAMES) {
-            clip.pose_into(frame, &mut pose);
-            for (limbs, ball) in human.sides().into_iter().zip(balls) {
-                let ankle = pose.positions[limbs.ankle];
-                ankles.push(ankle.y);
-                if let Some((joint, offset)) = ball {
-                    let tip = pose.positions[joint] + pose.rotations[joint] * offset;
-                    tips.push(tip.y);
-                    length = tip.distance(ankle);
-                }
-            }
-        }
+        let heights = |tracks: [&[Vec3]; 2]| -> Vec<f32> {
+            let positions = tracks.into_iter().flatten();
+            positions.map(|position| position.y).collect()
+        };
+        let [left, right] = &feet.sides;
+        let mut ankles = heights([&left.ankles, &right.ankles]);
+        let mut balls = heights([&left.balls, &right.balls]);
+        let last = |track: &[Vec3]| track.last().copied();
+        let foot = feet.sides.iter().rev().find_map(|foot| {
+            let (ankle, ball) = (last(&foot.ankles)?, last(&foot.balls)?);
+            Some(ankle.distance(ball))
+        });
         let ankle_height = low(&mut ankles).unwrap_or(0.0);
+        let ball_height = low(&mut balls).unwrap_or(ankle_height);
+        let pitch = ((ankle_height - ball_height) / foot.unwrap_or(0.0)).asin();
         let rest = body.bone(Joint::LeftAnkle, Joint::LeftFoot);
         let rest_pitch = (-rest.y).atan2(rest.with_y(0.0).length());
-        let ball_height = low(&mut tips).unwrap_or(ankle_height);
-        let pitch = ((ankle_height - ball_height) / length).asin();
         Self {
             ankle_height,
             ball_height,
@@ -54,6 +48,13 @@ impl Soles {
                 rest_pitch
             },
         }
+    }
+
+    /// Height of a foot's sole over the floor: the lower of heel side and ball is what touches
+    /// the ground.
+    pub(super) fn over_floor(&self, ankle: Vec3, ball: Option<Vec3>) -> f32 {
+        let heel = ankle.y - self.ankle_height;
+        ball.map_or(heel, |ball| heel.min(ball.y - self.ball_height))
     }
 }
 
