@@ -38,11 +38,14 @@ pub(crate) trait Lanes:
     /// `self` where `condition` is above 0, else 0.
     fn where_positive(self, condition: Self) -> Self;
 
-    /// Which lanes are less than the other's.
+    /// Whether any lane is less than the other's; NaN is less than nothing.
+    fn any_less(self, other: Self) -> bool;
+
+    /// One answer a lane, to be combined.
     type Mask: Copy + std::ops::BitAnd<Output = Self::Mask>;
 
-    /// Compares lane by lane; NaN is less than nothing.
-    fn less(self, other: Self) -> Self::Mask;
+    /// Which lanes are below the other's, of finite numbers.
+    fn below(self, other: Self) -> Self::Mask;
 
     /// Whether any lane is set.
     fn any(mask: Self::Mask) -> bool;

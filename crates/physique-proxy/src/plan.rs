@@ -5,12 +5,15 @@
 //! of quads, then 4 x 4 spheres at once; a pair that is not to be compared has a threshold that
 //! nothing is below.
 
+mod blends;
 mod quads;
 
 use std::ops::Range;
 
 use glam::Vec3;
 use physique_body::Joint;
+
+pub(crate) use blends::{Blend, Blends, Influence};
 
 use crate::{Pairs, SphereBody};
 
@@ -27,35 +30,21 @@ pub(crate) struct Plan {
     pub(crate) reach: Vec<f32>,
     /// Position of each joint at rest, from its parent.
     pub(crate) offsets: [[f32; 3]; Joint::COUNT],
+    pub(crate) blends: Blends,
     /// By joint, the spheres that follow it.
-    pub(crate) followers: [Followers; Joint::COUNT],
-    pub(crate) influences: Vec<Influence>,
+    pub(crate) followers: [Vec<Influence>; Joint::COUNT],
+    /// Places of each quad's four spheres; the last is repeated where there are fewer.
+    pub(crate) members: Vec<[u16; QUAD]>,
     pub(crate) quads: Vec<Range<u16>>,
     /// Quads of each group.
     pub(crate) groups: Vec<Range<u16>>,
     pub(crate) group_pairs: Vec<GroupPair>,
     pub(crate) quad_pairs: Vec<[u16; 2]>,
+    /// By quad pair: places of the first sphere of each quad.
+    pub(crate) quad_starts: Vec<[u16; 2]>,
     /// By quad pair: row `i`, column `j`, half the squared distance below which `i` of the first
     /// quad may touch `j` of the second.
     pub(crate) thresholds: Vec<[f32; QUAD * QUAD]>,
-}
-
-/// Ranges of [`Plan::influences`].
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Followers {
-    /// Spheres that this joint moves most.
-    pub(crate) first: Range<usize>,
-    /// Spheres that other joints move more.
-    pub(crate) others: Range<usize>,
-}
-
-/// A sphere that follows a joint.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Influence {
-    pub(crate) sphere: u32,
-    pub(crate) weight: f32,
-    /// The weight times the vector from joint to centre, at rest.
-    pub(crate) weighted: [f32; 3],
 }
 
 /// Two groups and the pairs of their quads.
@@ -78,17 +67,22 @@ impl Plan {
             .map(|&sphere| body.radii[usize::from(sphere)] - 0.5 * tolerance)
             .collect();
         reach.resize(order.len() + QUAD - 1, 0.0);
-        let (influences, followers) = influences(body, &order);
+        let (blends, followers) = blends::lay_out(body, &order);
+        let members = quads
+            .iter()
+            .map(|quad| std::array::from_fn(|place| (quad.start + place as u16).min(quad.end - 1)));
         let mut plan = Self {
             offsets: offsets(body),
             reach,
+            blends,
             followers,
-            influences,
+            members: members.collect(),
             quads,
             groups,
             order,
             group_pairs: Vec::new(),
             quad_pairs: Vec::new(),
+            quad_starts: Vec::new(),
             thresholds: Vec::new(),
         };
         plan.lay_out(body, &place, pairs);
@@ -133,6 +127,8 @@ impl Plan {
             let range = &mut self.group_pairs[group_pair].quad_pairs;
             if range.start == range.end || self.quad_pairs.last() != Some(&quads) {
                 self.quad_pairs.push(quads);
+                let starts = [quad_a, quad_b].map(|quad| self.quads[quad].start);
+                self.quad_starts.push(starts);
                 self.thresholds.push([f32::NEG_INFINITY; QUAD * QUAD]);
                 range.end += 1;
             }
@@ -187,44 +183,4 @@ fn offsets(body: &SphereBody) -> [[f32; 3]; Joint::COUNT] {
         let from = parent.map_or(Vec3::ZERO, |parent| body.rest_joints[parent.index()]);
         (body.rest_joints[joint.index()] - from).to_array()
     })
-}
-
-fn influences(body: &SphereBody, order: &[u16]) -> (Vec<Influence>, [Followers; Joint::COUNT]) {
-    let mut influences = Vec::new();
-    let mut followers = [const {
-        Followers {
-            first: 0..0,
-            others: 0..0,
-        }
-    }; Joint::COUNT];
-    for joint in Joint::ALL {
-        let mut add = |dominant: bool| {
-            let start = influences.len();
-            for (place, &sphere) in order.iter().enumerate() {
-                let sphere = usize::from(sphere);
-                if (body.dominant_joint(sphere) == joint) != dominant {
-                    continue;
-                }
-                let row = &body.blend_weights[sphere];
-                let own = row
-                    .iter()
-                    .filter(|entry| usize::from(entry.0) == joint.index());
-                let weight: f32 = own.map(|entry| entry.1).sum();
-                if weight != 0.0 || dominant {
-                    let arm = body.centres[sphere] - body.rest_joints[joint.index()];
-                    influences.push(Influence {
-                        sphere: place as u32,
-                        weight,
-                        weighted: (arm * weight).to_array(),
-                    });
-                }
-            }
-            start..influences.len()
-        };
-        followers[joint.index()] = Followers {
-            first: add(true),
-            others: add(false),
-        };
-    }
-    (influences, followers)
 }

@@ -5,6 +5,7 @@
 //! in at least one frame of the tile; they are measured in [`super::contacts`].
 
 use super::bounds::overlap;
+use super::workspace::Bounds;
 use super::{Workspace, contacts};
 use crate::Penalty;
 use crate::lanes::{Lanes, Simd};
@@ -21,77 +22,83 @@ pub(super) fn pairs<S: Simd, const GRADIENT: bool>(
     if GRADIENT {
         work.by_spheres.fill([simd.splat(0.0); 3]);
     }
-    let group_pairs = filter_groups(plan, work);
-    let quad_pairs = filter_quads(plan, work, group_pairs);
-    let mut loss = simd.splat(0.0);
-    let mut found = 0;
-    for place in 0..quad_pairs {
-        found += filter_spheres(simd, plan, work, place, found);
-        if found > Workspace::<S::Lanes>::CONTACTS || place + 1 == quad_pairs {
-            loss = contacts::measure::<S, GRADIENT>(simd, plan, work, penalty, found, loss);
-            found = 0;
-        }
-    }
-    loss
+    let group_pairs = filter_groups(plan, &work.group_bounds, &mut work.group_pairs);
+    let quad_pairs = filter_quads(plan, &work.quad_bounds, group_pairs, &mut work.quad_pairs);
+    let touching = filter_spheres(simd, plan, &work.spheres, quad_pairs, &mut work.touching);
+    let by_spheres = &mut work.by_spheres;
+    contacts::measure::<S, GRADIENT>(simd, plan, &work.spheres, touching, penalty, by_spheres)
 }
 
-/// Numbers of the group pairs whose boxes overlap; returns how many.
+/// Four quads' worth of answers: bit `4 * row + column` for the spheres of two quads.
+pub(super) type Answers = u16;
+
+/// Numbers of the group pairs whose boxes overlap.
 #[inline(always)]
-fn filter_groups<L: Lanes>(plan: &Plan, work: &mut Workspace<L>) -> usize {
+fn filter_groups<'a, L: Lanes>(
+    plan: &Plan,
+    bounds: &[Bounds<L>],
+    survivors: &'a mut [u32],
+) -> &'a [u32] {
     let mut count = 0;
     for (number, pair) in plan.group_pairs.iter().enumerate() {
         let [a, b] = pair.groups.map(usize::from);
-        work.group_pairs[count] = number as u32;
-        count += usize::from(overlap(&work.group_bounds[a], &work.group_bounds[b]));
+        survivors[count] = number as u32;
+        count += usize::from(overlap(&bounds[a], &bounds[b]));
     }
-    count
+    &survivors[..count]
 }
 
-/// Numbers of the quad pairs whose boxes overlap; returns how many.
+/// Numbers of the quad pairs whose boxes overlap.
 #[inline(always)]
-fn filter_quads<L: Lanes>(plan: &Plan, work: &mut Workspace<L>, group_pairs: usize) -> usize {
+fn filter_quads<'a, L: Lanes>(
+    plan: &Plan,
+    bounds: &[Bounds<L>],
+    group_pairs: &[u32],
+    survivors: &'a mut [u32],
+) -> &'a [u32] {
     let mut count = 0;
-    for &group_pair in &work.group_pairs[..group_pairs] {
-        let range = &plan.group_pairs[group_pair as usize].quad_pairs;
-        let numbers = range.clone();
-        let range = range.start as usize..range.end as usize;
-        for (number, quads) in numbers.zip(&plan.quad_pairs[range]) {
+    for &group_pair in group_pairs {
+        let numbers = plan.group_pairs[group_pair as usize].quad_pairs.clone();
+        let quad_pairs = &plan.quad_pairs[numbers.start as usize..numbers.end as usize];
+        for (number, quads) in numbers.zip(quad_pairs) {
             let [a, b] = quads.map(usize::from);
-            work.quad_pairs[count] = number;
-            count += usize::from(overlap(&work.quad_bounds[a], &work.quad_bounds[b]));
+            survivors[count] = number;
+            count += usize::from(overlap(&bounds[a], &bounds[b]));
         }
     }
-    count
+    &survivors[..count]
 }
 
-/// Compares 4 x 4 spheres, and appends those that may touch after `found` others; returns how many.
+/// Quad pairs with spheres that may touch, and which: 4 x 4 at once.
 #[inline(always)]
-fn filter_spheres<S: Simd>(
+fn filter_spheres<'a, S: Simd>(
     simd: S,
     plan: &Plan,
-    work: &mut Workspace<S::Lanes>,
-    place: usize,
-    found: usize,
-) -> usize {
-    let number = work.quad_pairs[place] as usize;
-    let thresholds = &plan.thresholds[number];
-    let [first, second] = plan.quad_pairs[number].map(|quad| plan.quads[usize::from(quad)].start);
-    let rows = &work.spheres[usize::from(first)..][..QUAD];
-    let columns = &work.spheres[usize::from(second)..][..QUAD];
-    let contacts = &mut work.contacts[found..][..QUAD * QUAD];
+    spheres: &[[S::Lanes; 4]],
+    quad_pairs: &[u32],
+    survivors: &'a mut [(u32, Answers)],
+) -> &'a [(u32, Answers)] {
     let mut count = 0;
-    for (row, &[x, y, z, half_square]) in rows.iter().enumerate() {
-        for (column, other) in columns.iter().enumerate() {
-            // Half the squared distance: |a|^2 / 2 + |b|^2 / 2 - a . b.
-            let half = half_square + other[3];
-            let half = x.neg_mul_add(other[0], half);
-            let half = y.neg_mul_add(other[1], half);
-            let half = z.neg_mul_add(other[2], half);
-            let threshold = simd.splat(thresholds[row * QUAD + column]);
-            // At most 15 before the last one.
-            contacts[count % (QUAD * QUAD)] = [first + row as u16, second + column as u16];
-            count += usize::from(S::Lanes::any(half.less(threshold)));
+    for &number in quad_pairs {
+        let thresholds = &plan.thresholds[number as usize];
+        let [rows, columns] = plan.quad_starts[number as usize].map(usize::from);
+        let rows = &spheres[rows..][..QUAD];
+        let columns = &spheres[columns..][..QUAD];
+        let mut answers = 0;
+        for (row, &[x, y, z, half_square]) in rows.iter().enumerate() {
+            for (column, other) in columns.iter().enumerate() {
+                // Half the squared distance: |a|^2 / 2 + |b|^2 / 2 - a . b.
+                let half = half_square + other[3];
+                let half = x.neg_mul_add(other[0], half);
+                let half = y.neg_mul_add(other[1], half);
+                let half = z.neg_mul_add(other[2], half);
+                let place = row * QUAD + column;
+                let near = half.any_less(simd.splat(thresholds[place]));
+                answers |= Answers::from(near) << place;
+            }
         }
+        survivors[count] = (number, answers);
+        count += usize::from(answers != 0);
     }
-    count
+    &survivors[..count]
 }

@@ -1,49 +1,51 @@
-//! Linear blend skinning of sphere centres, joint by joint: a joint's transform, or its derivative,
-//! stays in registers while all spheres that follow the joint pass by.
+//! Linear blend skinning of sphere centres, and back.
+
+use physique_body::Joint;
 
 use super::Workspace;
 use super::workspace::Transform;
 use crate::lanes::{Lanes, Simd};
-use crate::plan::{Influence, Plan};
+use crate::plan::{Blend, Plan};
 
+/// Poses all spheres.
 #[inline(always)]
 pub(super) fn forward<S: Simd>(simd: S, plan: &Plan, work: &mut Workspace<S::Lanes>) {
-    let zero = simd.splat(0.0);
-    for (followers, transform) in plan.followers.iter().zip(&work.world_from_joint) {
-        for influence in &plan.influences[followers.first.clone()] {
-            let [x, y, z] = moved(simd, transform, influence, [zero; 3]);
-            work.spheres[influence.sphere as usize] = [x, y, z, zero];
-        }
-    }
-    for (followers, transform) in plan.followers.iter().zip(&work.world_from_joint) {
-        for influence in &plan.influences[followers.others.clone()] {
-            let [x, y, z, _] = work.spheres[influence.sphere as usize];
-            let [x, y, z] = moved(simd, transform, influence, [x, y, z]);
-            work.spheres[influence.sphere as usize] = [x, y, z, zero];
-        }
-    }
+    let (world, spheres) = (&work.world_from_joint, &mut work.spheres[..]);
+    blend(simd, &plan.blends.one, world, spheres);
+    blend(simd, &plan.blends.two, world, spheres);
+    blend(simd, &plan.blends.three, world, spheres);
+    blend(simd, &plan.blends.four, world, spheres);
 }
 
-/// `sum + weight * (rotation * arm + position)`.
+/// `sum of weight * (rotation * arm + position)` over the joints that a sphere follows.
 #[inline(always)]
-fn moved<S: Simd>(
+fn blend<S: Simd, const JOINTS: usize>(
     simd: S,
-    transform: &Transform<S::Lanes>,
-    influence: &Influence,
-    sum: [S::Lanes; 3],
-) -> [S::Lanes; 3] {
-    let [x, y, z] = influence.weighted.map(|number| simd.splat(number));
-    let weight = simd.splat(influence.weight);
-    let row = |row: usize| {
-        let sum = weight.mul_add(transform[9 + row], sum[row]);
-        let sum = x.mul_add(transform[3 * row], sum);
-        let sum = y.mul_add(transform[3 * row + 1], sum);
-        z.mul_add(transform[3 * row + 2], sum)
-    };
-    [row(0), row(1), row(2)]
+    blends: &[Blend<JOINTS>],
+    world_from_joint: &[Transform<S::Lanes>; Joint::COUNT],
+    spheres: &mut [[S::Lanes; 4]],
+) {
+    for blend in blends {
+        let mut sum = [simd.splat(0.0); 3];
+        for (joint, arm) in blend.joints.iter().zip(&blend.arms) {
+            let transform = &world_from_joint[usize::from(*joint)];
+            let [x, y, z] = arm.weighted.map(|number| simd.splat(number));
+            let weight = simd.splat(arm.weight);
+            for (row, sum) in sum.iter_mut().enumerate() {
+                *sum = weight.mul_add(transform[9 + row], *sum);
+                *sum = x.mul_add(transform[3 * row], *sum);
+                *sum = y.mul_add(transform[3 * row + 1], *sum);
+                *sum = z.mul_add(transform[3 * row + 2], *sum);
+            }
+        }
+        let square = sum[0].mul_add(sum[0], sum[1].mul_add(sum[1], sum[2] * sum[2]));
+        let half_square = square * simd.splat(0.5);
+        spheres[usize::from(blend.sphere)] = [sum[0], sum[1], sum[2], half_square];
+    }
 }
 
-/// Gathers the derivatives by the joints' transforms from those by the spheres, times `scale`.
+/// Gathers the derivatives by the joints' transforms from those by the spheres, times `scale`: a
+/// joint's twelve sums stay in registers while all spheres that follow it pass by.
 #[inline(always)]
 pub(super) fn backward<S: Simd>(
     simd: S,
@@ -51,12 +53,13 @@ pub(super) fn backward<S: Simd>(
     work: &mut Workspace<S::Lanes>,
     scale: S::Lanes,
 ) {
+    let by_spheres = &work.by_spheres[..];
     for (followers, by_world) in plan.followers.iter().zip(&mut work.by_world) {
         let mut sum = [simd.splat(0.0); 12];
-        for influence in &plan.influences[followers.first.start..followers.others.end] {
-            let by_sphere = work.by_spheres[influence.sphere as usize];
-            let arm = influence.weighted.map(|number| simd.splat(number));
-            let weight = simd.splat(influence.weight);
+        for influence in followers {
+            let by_sphere = by_spheres[usize::from(influence.sphere)];
+            let arm = influence.arm.weighted.map(|number| simd.splat(number));
+            let weight = simd.splat(influence.arm.weight);
             for (row, by_sphere) in by_sphere.into_iter().enumerate() {
                 for (column, arm) in arm.into_iter().enumerate() {
                     sum[3 * row + column] = by_sphere.mul_add(arm, sum[3 * row + column]);

@@ -26,16 +26,13 @@ pub(crate) struct Workspace<L> {
     /// Survivors of the broad phase.
     pub(crate) group_pairs: Vec<u32>,
     pub(crate) quad_pairs: Vec<u32>,
-    pub(crate) contacts: Vec<[u16; 2]>,
+    pub(crate) touching: Vec<(u32, u16)>,
     /// For a last tile that is not full.
     pub(crate) poses: Vec<PoseMatrices>,
     pub(crate) by_poses: Vec<PoseMatrices>,
 }
 
 impl<L: Copy> Workspace<L> {
-    /// Pairs of spheres between two visits of the exact phase.
-    pub(crate) const CONTACTS: usize = 1024;
-
     pub(crate) fn new<S: Simd<Lanes = L>>(simd: S, plan: &Plan) -> Self {
         let zero = simd.splat(0.0);
         let empty = [[0.0; 9]; Joint::COUNT];
@@ -50,7 +47,7 @@ impl<L: Copy> Workspace<L> {
             // One more each: a survivor is written before it is counted.
             group_pairs: vec![0; plan.group_pairs.len() + 1],
             quad_pairs: vec![0; plan.quad_pairs.len() + 1],
-            contacts: vec![[0; 2]; Self::CONTACTS + QUAD * QUAD],
+            touching: vec![(0, 0); plan.quad_pairs.len() + 1],
             poses: vec![empty; S::COUNT],
             by_poses: vec![empty; S::COUNT],
         }

@@ -101,7 +101,12 @@ impl Lanes for F32x8 {
     }
 
     #[inline(always)]
-    fn less(self, other: Self) -> Mask8 {
+    fn any_less(self, other: Self) -> bool {
+        Self::any(self.below(other))
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self) -> Mask8 {
         // SAFETY: as above.
         Mask8(unsafe { _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0) })
     }

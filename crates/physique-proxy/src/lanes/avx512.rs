@@ -1,7 +1,7 @@
 //! AVX-512F: 16 lanes.
 
 use std::arch::x86_64::*;
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, BitAnd, Mul, Sub};
 
 use super::{Kernel, Lanes, Simd};
 
@@ -22,6 +22,11 @@ impl Avx512 {
 #[derive(Clone, Copy)]
 #[repr(transparent)]
 pub(crate) struct F32x16(__m512);
+
+/// Lanes are set where negative: signs are combined by plain logic, of which a processor does more at
+/// once than of comparisons into mask registers.
+#[derive(Clone, Copy)]
+pub(crate) struct Signs(__m512i);
 
 impl Simd for Avx512 {
     type Lanes = F32x16;
@@ -53,7 +58,7 @@ impl Simd for Avx512 {
 }
 
 impl Lanes for F32x16 {
-    type Mask = __mmask16;
+    type Mask = Signs;
 
     #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
@@ -99,14 +104,21 @@ impl Lanes for F32x16 {
     }
 
     #[inline(always)]
-    fn less(self, other: Self) -> __mmask16 {
+    fn any_less(self, other: Self) -> bool {
         // SAFETY: as above.
-        unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, other.0) }
+        unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, other.0) != 0 }
     }
 
     #[inline(always)]
-    fn any(mask: __mmask16) -> bool {
-        mask != 0
+    fn below(self, other: Self) -> Signs {
+        // SAFETY: as above.
+        Signs(unsafe { _mm512_castps_si512(_mm512_sub_ps(self.0, other.0)) })
+    }
+
+    #[inline(always)]
+    fn any(mask: Signs) -> bool {
+        // SAFETY: as above.
+        unsafe { _mm512_cmplt_epi32_mask(mask.0, _mm512_setzero_si512()) != 0 }
     }
 
     #[inline(always)]
@@ -127,6 +139,16 @@ impl Lanes for F32x16 {
         let lanes = &mut lanes[..Avx512::COUNT];
         // SAFETY: as above, and there is room for 16 numbers.
         unsafe { _mm512_storeu_ps(lanes.as_mut_ptr(), self.0) }
+    }
+}
+
+impl BitAnd for Signs {
+    type Output = Self;
+
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm512_and_si512(self.0, other.0) })
     }
 }
 

@@ -100,7 +100,12 @@ impl Lanes for F32x4 {
     }
 
     #[inline(always)]
-    fn less(self, other: Self) -> Mask4 {
+    fn any_less(self, other: Self) -> bool {
+        Self::any(self.below(other))
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self) -> Mask4 {
         // SAFETY: as above.
         Mask4(unsafe { vcltq_f32(self.0, other.0) })
     }

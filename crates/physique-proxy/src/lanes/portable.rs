@@ -95,7 +95,12 @@ impl Lanes for Array {
     }
 
     #[inline(always)]
-    fn less(self, other: Self) -> ArrayMask {
+    fn any_less(self, other: Self) -> bool {
+        Self::any(self.below(other))
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self) -> ArrayMask {
         ArrayMask(from_fn(|lane| self.0[lane] < other.0[lane]))
     }
 

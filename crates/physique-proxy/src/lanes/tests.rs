@@ -77,17 +77,19 @@ fn arithmetic<S: Simd>(simd: S) {
 #[inline(always)]
 fn comparisons<S: Simd>(simd: S) {
     let (one, two, nan) = (simd.splat(1.0), simd.splat(2.0), simd.splat(f32::NAN));
-    assert!(S::Lanes::any(one.less(two)));
-    assert!(!S::Lanes::any(two.less(one)));
-    assert!(!S::Lanes::any(one.less(one)));
-    assert!(!S::Lanes::any(nan.less(one)) && !S::Lanes::any(one.less(nan)));
+    assert!(one.any_less(two) && !two.any_less(one) && !one.any_less(one));
+    assert!(!nan.any_less(one) && !one.any_less(nan));
+    assert!(S::Lanes::any(one.below(two)));
+    assert!(!S::Lanes::any(two.below(one)));
+    assert!(!S::Lanes::any(one.below(one)));
     assert_eq!(lanes::<S>(nan.max(one))[0], 1.0);
     for lane in 0..S::COUNT {
         let mut numbers = [1.0; MOST_LANES];
         numbers[lane] = 3.0;
-        let one_lane = two.less(simd.load(&numbers));
-        assert!(S::Lanes::any(one_lane));
-        assert!(!S::Lanes::any(one_lane & two.less(one)));
+        let numbers = simd.load(&numbers);
+        assert!(two.any_less(numbers) && !numbers.any_less(one));
+        assert!(S::Lanes::any(two.below(numbers)));
+        assert!(!S::Lanes::any(two.below(numbers) & two.below(one)));
     }
 }
 

@@ -1,4 +1,6 @@
-//! The order of spheres: by joint, and by nearness within a joint.
+//! The order of spheres: by limb and joint, and by nearness within a joint.
+//!
+//! What may touch then lies close in memory, and the pair tests find it in the first-level cache.
 
 use std::ops::Range;
 
@@ -10,7 +12,7 @@ use crate::SphereBody;
 /// Spheres in order, quads as ranges of places, and groups as ranges of quads.
 pub(super) fn order(body: &SphereBody) -> (Vec<u16>, Vec<Range<u16>>, Vec<Range<u16>>) {
     let (mut order, mut quads, mut groups) = (Vec::new(), Vec::new(), Vec::new());
-    for joint in Joint::ALL {
+    for joint in limb_by_limb() {
         let mut members: Vec<_> = (0..body.sphere_count())
             .filter(|&sphere| body.dominant_joint(sphere) == joint)
             .map(|sphere| sphere as u16)
@@ -47,4 +49,16 @@ fn split(body: &SphereBody, members: &mut [u16], count: usize, quad: &mut impl F
     let (left, right) = members.split_at_mut(members.len() * half / count);
     split(body, left, half, quad);
     split(body, right, count - half, quad);
+}
+
+/// Joints in depth-first order: every limb in one piece.
+fn limb_by_limb() -> Vec<Joint> {
+    let mut joints = Vec::with_capacity(Joint::COUNT);
+    let mut waiting = vec![Joint::Pelvis];
+    while let Some(joint) = waiting.pop() {
+        joints.push(joint);
+        let children = Joint::ALL.into_iter().rev();
+        waiting.extend(children.filter(|child| child.parent() == Some(joint)));
+    }
+    joints
 }
