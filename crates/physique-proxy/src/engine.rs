@@ -1,12 +1,9 @@
 //! Tiles over threads: the fused kernel applied to any number of frames.
 
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
-use rayon::prelude::*;
-
-use crate::kernel::{Tile, TileGradient, Workspace};
-use crate::lanes::{Dispatch, Simd};
+use crate::kernel::{ShapeSums, Tile, TileGradient, Workspace};
+use crate::lanes::{Dispatch, MOST_LANES, Simd};
 use crate::plan::Plan;
 use crate::{Penalty, PoseMatrices};
 
@@ -17,10 +14,47 @@ pub(crate) struct Request<'a> {
     pub(crate) gradient: Option<TileGradient<'a>>,
 }
 
+impl<'a> Request<'a> {
+    fn split_at(self, frames: usize) -> (Self, Self) {
+        let poses = self.poses.split_at(frames);
+        let losses = self.losses.split_at_mut(frames);
+        let gradients = self.gradient.map(|TileGradient { weights, by_poses }| {
+            let weights = weights.split_at(frames);
+            let by_poses = by_poses.split_at_mut(frames);
+            let gradient = |weights, by_poses| TileGradient { weights, by_poses };
+            (
+                gradient(weights.0, by_poses.0),
+                gradient(weights.1, by_poses.1),
+            )
+        });
+        let (early, late): (Option<TileGradient<'a>>, _) = gradients.unzip();
+        let part = |poses, losses, gradient| Self {
+            poses,
+            losses,
+            gradient,
+        };
+        (
+            part(poses.0, losses.0, early),
+            part(poses.1, losses.1, late),
+        )
+    }
+}
+
+/// What comes of a request, beside what it writes.
+pub(crate) struct Outcome {
+    /// The first frame whose loss is not finite.
+    pub(crate) not_finite: Option<usize>,
+    /// Derivatives by the shape, where wanted.
+    pub(crate) shape: Option<ShapeSums>,
+}
+
 /// A loss on a chosen backend.
 pub(crate) trait Engine: Send + Sync {
-    /// Returns the first frame whose loss is not finite.
-    fn evaluate(&self, request: Request<'_>) -> Option<usize>;
+    /// Evaluates; with `shape`, a gradient must be asked for too.
+    fn evaluate(&self, request: Request<'_>, shape: bool) -> Outcome;
+
+    /// What it was built from.
+    fn plan(&self) -> &Plan;
 }
 
 /// Builds the engine for whichever backend is dispatched to.
@@ -50,132 +84,131 @@ struct Fused<S: Simd> {
     idle: Mutex<Vec<Box<Workspace<S::Lanes>>>>,
 }
 
-/// Fewest tiles worth handing to another thread.
-const TILES: usize = 4;
+/// Most tiles that a thread takes in one go.
+const TILES: usize = 8;
 
 impl<S: Simd> Engine for Fused<S> {
-    fn evaluate(&self, request: Request<'_>) -> Option<usize> {
-        let first = AtomicUsize::new(usize::MAX);
-        let record = |tile: usize, losses: &[f32]| {
-            let frame = losses.iter().position(|loss| !loss.is_finite());
-            first.fetch_min(tile * S::COUNT + frame.unwrap_or(0), Ordering::Relaxed);
-        };
-        let tiles = request.poses.par_chunks(S::COUNT);
-        let tiles = tiles
-            .zip(request.losses.par_chunks_mut(S::COUNT))
-            .enumerate();
-        match request.gradient {
-            None => tiles.with_min_len(TILES).for_each_init(
-                || Borrowed::new(self),
-                |workspace, (number, (poses, losses))| {
-                    if !self.tile(workspace.get(), poses, losses, None) {
-                        record(number, losses);
-                    }
-                },
-            ),
-            Some(TileGradient { weights, by_poses }) => tiles
-                .zip(weights.par_chunks(S::COUNT))
-                .zip(by_poses.par_chunks_mut(S::COUNT))
-                .with_min_len(TILES)
-                .for_each_init(
-                    || Borrowed::new(self),
-                    |workspace, (((number, (poses, losses)), weights), by_poses)| {
-                        let gradient = TileGradient { weights, by_poses };
-                        if !self.tile(workspace.get(), poses, losses, Some(gradient)) {
-                            record(number, losses);
-                        }
-                    },
-                ),
-        }
-        let first = first.into_inner();
-        (first != usize::MAX).then_some(first)
+    fn evaluate(&self, request: Request<'_>, shape: bool) -> Outcome {
+        self.halves(request, 0, shape)
+    }
+
+    fn plan(&self) -> &Plan {
+        &self.plan
     }
 }
 
 impl<S: Simd> Fused<S> {
-    /// Whether all is finite.
+    /// Halves a request until it is small. Where it is cut depends on the number of frames only, and
+    /// sums are taken along the cuts: they are the same for any number of threads.
+    fn halves(&self, request: Request<'_>, frame: usize, shape: bool) -> Outcome {
+        let tiles = request.poses.len().div_ceil(S::COUNT);
+        if tiles <= TILES {
+            return self.tiles(request, frame, shape);
+        }
+        let cut = tiles / 2 * S::COUNT;
+        let (early, late) = request.split_at(cut);
+        let (mut early, late) = rayon::join(
+            || self.halves(early, frame, shape),
+            || self.halves(late, frame + cut, shape),
+        );
+        early.not_finite = early.not_finite.or(late.not_finite);
+        if let (Some(sums), Some(later)) = (&mut early.shape, &late.shape) {
+            sums.add(later);
+        }
+        early
+    }
+
+    fn tiles(&self, mut request: Request<'_>, first_frame: usize, shape: bool) -> Outcome {
+        let mut workspace = self.workspace();
+        let mut outcome = Outcome {
+            not_finite: None,
+            shape: shape.then(|| ShapeSums::new(self.plan.sphere_count())),
+        };
+        let mut frame = first_frame;
+        while !request.poses.is_empty() {
+            let frames = S::COUNT.min(request.poses.len());
+            let (tile, rest) = request.split_at(frames);
+            let bad = self.tile(&mut workspace, tile, outcome.shape.as_mut());
+            let bad = bad.map(|lane| frame + lane);
+            outcome.not_finite = outcome.not_finite.or(bad);
+            frame += S::COUNT;
+            request = rest;
+        }
+        if let Ok(mut idle) = self.idle.lock() {
+            idle.push(workspace);
+        }
+        outcome
+    }
+
+    fn workspace(&self) -> Box<Workspace<S::Lanes>> {
+        let idle = self.idle.lock().ok().and_then(|mut idle| idle.pop());
+        idle.unwrap_or_else(|| Box::new(Workspace::new(self.simd, &self.plan)))
+    }
+
+    /// Returns the first frame whose loss is not finite.
     fn tile(
         &self,
         workspace: &mut Workspace<S::Lanes>,
-        poses: &[PoseMatrices],
-        losses: &mut [f32],
-        gradient: Option<TileGradient<'_>>,
-    ) -> bool {
-        if poses.len() < S::COUNT {
-            return self.part_of_tile(workspace, poses, losses, gradient);
-        }
-        self.simd.run(Tile {
-            plan: &self.plan,
-            workspace,
-            penalty: self.penalty,
+        request: Request<'_>,
+        shape: Option<&mut ShapeSums>,
+    ) -> Option<usize> {
+        let Request {
             poses,
             losses,
             gradient,
-        })
+        } = request;
+        if poses.len() < S::COUNT {
+            return self.part_of_tile(workspace, poses, losses, gradient, shape);
+        }
+        let finite = self.simd.run(Tile {
+            plan: &self.plan,
+            penalty: self.penalty,
+            workspace,
+            poses,
+            losses,
+            gradient,
+            shape,
+        });
+        if finite {
+            return None;
+        }
+        losses.iter().position(|loss| !loss.is_finite())
     }
 
-    /// Fills the tile up with its last frame.
+    /// Fills the tile up with its last frame, which then weighs nothing.
     fn part_of_tile(
         &self,
         workspace: &mut Workspace<S::Lanes>,
         poses: &[PoseMatrices],
         losses: &mut [f32],
         gradient: Option<TileGradient<'_>>,
-    ) -> bool {
+        shape: Option<&mut ShapeSums>,
+    ) -> Option<usize> {
         let frames = poses.len();
-        let Some(last) = poses.last() else {
-            return true;
-        };
         let mut full = std::mem::take(&mut workspace.poses);
         let mut by_full = std::mem::take(&mut workspace.by_poses);
         full[..frames].copy_from_slice(poses);
-        full[frames..].fill(*last);
-        let mut full_losses = [0.0; crate::lanes::MOST_LANES];
-        let mut full_weights = [0.0; crate::lanes::MOST_LANES];
-        let finite = if let Some(gradient) = gradient {
+        full[frames..].fill(*poses.last()?);
+        let mut full_losses = [0.0; MOST_LANES];
+        let mut full_weights = [0.0; MOST_LANES];
+        if let Some(gradient) = &gradient {
             full_weights[..frames].copy_from_slice(gradient.weights);
-            let full_gradient = TileGradient {
+        }
+        let request = Request {
+            poses: &full,
+            losses: &mut full_losses[..S::COUNT],
+            gradient: gradient.as_ref().map(|_| TileGradient {
                 weights: &full_weights,
                 by_poses: &mut by_full,
-            };
-            let finite = self.tile(workspace, &full, &mut full_losses, Some(full_gradient));
-            gradient.by_poses.copy_from_slice(&by_full[..frames]);
-            finite
-        } else {
-            self.tile(workspace, &full, &mut full_losses, None)
+            }),
         };
+        let not_finite = self.tile(workspace, request, shape);
         losses.copy_from_slice(&full_losses[..frames]);
+        if let Some(gradient) = gradient {
+            gradient.by_poses.copy_from_slice(&by_full[..frames]);
+        }
         workspace.poses = full;
         workspace.by_poses = by_full;
-        finite
-    }
-}
-
-/// A workspace that goes back when it is no longer needed.
-struct Borrowed<'a, S: Simd> {
-    engine: &'a Fused<S>,
-    workspace: Option<Box<Workspace<S::Lanes>>>,
-}
-
-impl<'a, S: Simd> Borrowed<'a, S> {
-    fn new(engine: &'a Fused<S>) -> Self {
-        let idle = engine.idle.lock().ok().and_then(|mut idle| idle.pop());
-        Self {
-            engine,
-            workspace: idle,
-        }
-    }
-
-    fn get(&mut self) -> &mut Workspace<S::Lanes> {
-        self.workspace
-            .get_or_insert_with(|| Box::new(Workspace::new(self.engine.simd, &self.engine.plan)))
-    }
-}
-
-impl<S: Simd> Drop for Borrowed<'_, S> {
-    fn drop(&mut self) {
-        if let (Ok(mut idle), Some(workspace)) = (self.engine.idle.lock(), self.workspace.take()) {
-            idle.push(workspace);
-        }
+        not_finite
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! poses ── transpose ─▶ rotations ── kinematics ─▶ joints ── skinning ─▶ spheres
-//!                                                             boxes ─▶ pairs ─▶ loss
-//! gradient ◀─ transpose ── kinematics ◀── skinning ◀── gradient by spheres ◀──┘
+//!                                                          boxes ─▶ pairs ─▶ loss
+//! gradient ◀─ transpose ── kinematics ◀── skinning ◀── by spheres ◀──┘
 //! ```
 //!
 //! Every stage reads what the last one left in a [`Workspace`] that fits the second-level cache.
@@ -12,6 +12,8 @@ mod bounds;
 mod contacts;
 mod kinematics;
 mod pairs;
+mod prefetch;
+mod shape;
 mod skinning;
 mod transpose;
 mod workspace;
@@ -20,16 +22,19 @@ use crate::lanes::{Kernel, Lanes, Simd};
 use crate::plan::Plan;
 use crate::{Penalty, PoseMatrices};
 
+pub(crate) use shape::ShapeSums;
 pub(crate) use workspace::Workspace;
 
 /// One tile: exactly [`Simd::COUNT`] frames.
 pub(crate) struct Tile<'a, L> {
     pub(crate) plan: &'a Plan,
-    pub(crate) workspace: &'a mut Workspace<L>,
     pub(crate) penalty: Penalty,
+    pub(crate) workspace: &'a mut Workspace<L>,
     pub(crate) poses: &'a [PoseMatrices],
     pub(crate) losses: &'a mut [f32],
     pub(crate) gradient: Option<TileGradient<'a>>,
+    /// Where the derivatives by the shape are added up; needs a gradient.
+    pub(crate) shape: Option<&'a mut ShapeSums>,
 }
 
 /// Where a tile's gradient goes.
@@ -40,21 +45,28 @@ pub(crate) struct TileGradient<'a> {
 }
 
 impl<S: Simd> Kernel<S> for Tile<'_, S::Lanes> {
-    /// Whether all numbers are finite.
+    /// Whether all losses are finite.
     type Output = bool;
 
     #[inline(always)]
     fn run(self, simd: S) -> bool {
         let (plan, work) = (self.plan, self.workspace);
-        transpose::load(simd, self.poses, &mut work.local);
+        let ahead = prefetch::Ahead::new(self.poses, self.gradient.as_ref());
+        let not_finite = transpose::load(simd, self.poses, &mut work.local);
+        ahead.part(0);
         kinematics::forward(simd, plan, work);
+        ahead.part(1);
         skinning::forward(simd, plan, work);
-        let poison = bounds::bound(simd, plan, work);
-        let loss = match self.gradient {
-            None => pairs::pairs::<S, false>(simd, plan, work, self.penalty),
-            Some(_) => pairs::pairs::<S, true>(simd, plan, work, self.penalty),
+        ahead.part(2);
+        let too_far = bounds::bound(simd, plan, work);
+        ahead.part(3);
+        let pairs = match (&self.gradient, &self.shape) {
+            (None, _) => pairs::pairs::<S, false, false>,
+            (_, None) => pairs::pairs::<S, true, false>,
+            (_, Some(_)) => pairs::pairs::<S, true, true>,
         };
-        (loss + poison).store(self.losses);
+        let loss = pairs(simd, plan, work, self.penalty);
+        (loss + not_finite + too_far).store(self.losses);
         if let Some(gradient) = self.gradient {
             let slope = match self.penalty {
                 Penalty::Squared => 2.0,
@@ -62,7 +74,13 @@ impl<S: Simd> Kernel<S> for Tile<'_, S::Lanes> {
             };
             let scale = simd.load(gradient.weights) * simd.splat(slope);
             skinning::backward(simd, plan, work, scale);
-            kinematics::backward(simd, plan, work);
+            if let Some(shape) = self.shape {
+                shape::add_skin(simd, plan, work, scale, shape);
+                kinematics::backward(simd, plan, work);
+                shape::add_joints(work, shape);
+            } else {
+                kinematics::backward(simd, plan, work);
+            }
             transpose::store(simd, &work.local, gradient.by_poses);
         }
         self.losses[..S::COUNT].iter().all(|loss| loss.is_finite())

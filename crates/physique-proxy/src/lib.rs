@@ -13,6 +13,7 @@ mod plan;
 pub mod pose_matrices;
 pub mod reference;
 pub mod self_intersection;
+pub mod shape_gradient;
 pub mod sphere_body;
 
 pub use error::Error;
@@ -21,4 +22,5 @@ pub use pairs::Pairs;
 pub use penalty::Penalty;
 pub use pose_matrices::{PoseMatrices, pose_matrices};
 pub use self_intersection::{SelfIntersection, SelfIntersectionOptions};
+pub use shape_gradient::ShapeGradient;
 pub use sphere_body::SphereBody;

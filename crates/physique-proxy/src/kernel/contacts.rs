@@ -5,18 +5,29 @@ use crate::Penalty;
 use crate::lanes::{Lanes, Simd};
 use crate::plan::{Plan, QUAD};
 
-/// Measures contacts and returns the sum of their costs.
-///
-/// With `GRADIENT`, adds the derivatives by the spheres, of half the loss for the squared penalty.
+/// Derivatives of the loss, of half the loss for the squared penalty.
+pub(super) struct Slopes<'a, L> {
+    /// By the centres.
+    pub(super) by_spheres: &'a mut [[L; 3]],
+    /// By the radii.
+    pub(super) by_reaches: &'a mut [L],
+}
+
+/// Measures contacts and returns the sum of their costs. With `GRADIENT` and `SHAPE`, adds to the
+/// slopes.
 #[inline(always)]
-pub(super) fn measure<S: Simd, const GRADIENT: bool>(
+pub(super) fn measure<S: Simd, const GRADIENT: bool, const SHAPE: bool>(
     simd: S,
     plan: &Plan,
     spheres: &[[S::Lanes; 4]],
     touching: &[(u32, Answers)],
     penalty: Penalty,
-    by_spheres: &mut [[S::Lanes; 3]],
+    slopes: Slopes<'_, S::Lanes>,
 ) -> S::Lanes {
+    let Slopes {
+        by_spheres,
+        by_reaches,
+    } = slopes;
     let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
     // Centres that coincide push nowhere.
     let least = simd.splat(f32::MIN_POSITIVE);
@@ -43,6 +54,10 @@ pub(super) fn measure<S: Simd, const GRADIENT: bool>(
                     one.where_positive(depth)
                 }
             };
+            if SHAPE {
+                by_reaches[i] = by_reaches[i] + slope;
+                by_reaches[j] = by_reaches[j] + slope;
+            }
             if GRADIENT {
                 let push = slope * inverse_distance;
                 let by = &mut by_spheres[i];

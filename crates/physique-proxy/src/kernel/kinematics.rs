@@ -8,7 +8,7 @@ use crate::lanes::{Lanes, Simd};
 use crate::plan::Plan;
 
 /// Parents by index; the pelvis's own is never asked for.
-const PARENTS: [usize; Joint::COUNT] = {
+pub(super) const PARENTS: [usize; Joint::COUNT] = {
     let mut parents = [0; Joint::COUNT];
     let mut joint = 1;
     while joint < Joint::COUNT {

@@ -5,15 +5,16 @@
 //! in at least one frame of the tile; they are measured in [`super::contacts`].
 
 use super::bounds::overlap;
-use super::workspace::Bounds;
-use super::{Workspace, contacts};
+use super::contacts::{self, Slopes};
+use super::workspace::{Bounds, Workspace};
 use crate::Penalty;
 use crate::lanes::{Lanes, Simd};
 use crate::plan::{Plan, QUAD};
 
-/// The loss; with `GRADIENT`, also its derivatives by the spheres, but for a factor.
+/// The loss; with `GRADIENT`, also its derivatives by the spheres, and with `SHAPE` those by the
+/// radii, but for a factor.
 #[inline(always)]
-pub(super) fn pairs<S: Simd, const GRADIENT: bool>(
+pub(super) fn pairs<S: Simd, const GRADIENT: bool, const SHAPE: bool>(
     simd: S,
     plan: &Plan,
     work: &mut Workspace<S::Lanes>,
@@ -22,14 +23,20 @@ pub(super) fn pairs<S: Simd, const GRADIENT: bool>(
     if GRADIENT {
         work.by_spheres.fill([simd.splat(0.0); 3]);
     }
+    if SHAPE {
+        work.by_reaches.fill(simd.splat(0.0));
+    }
     let group_pairs = filter_groups(plan, &work.group_bounds, &mut work.group_pairs);
     let quad_pairs = filter_quads(plan, &work.quad_bounds, group_pairs, &mut work.quad_pairs);
     let touching = filter_spheres(simd, plan, &work.spheres, quad_pairs, &mut work.touching);
-    let by_spheres = &mut work.by_spheres;
-    contacts::measure::<S, GRADIENT>(simd, plan, &work.spheres, touching, penalty, by_spheres)
+    let slopes = Slopes {
+        by_spheres: &mut work.by_spheres,
+        by_reaches: &mut work.by_reaches,
+    };
+    contacts::measure::<S, GRADIENT, SHAPE>(simd, plan, &work.spheres, touching, penalty, slopes)
 }
 
-/// Four quads' worth of answers: bit `4 * row + column` for the spheres of two quads.
+/// Sixteen answers: bit `4 * row + column` for the spheres of two quads.
 pub(super) type Answers = u16;
 
 /// Numbers of the group pairs whose boxes overlap.

@@ -14,22 +14,29 @@ fn blocks(count: usize) -> impl Iterator<Item = usize> {
     (0..NUMBERS.div_ceil(count)).map(move |block| (block * count).min(NUMBERS - count))
 }
 
-/// `poses` are as many as lanes.
+/// `poses` are as many as lanes. Returns 0 in lanes of finite poses, else NaN.
 #[inline(always)]
 pub(super) fn load<S: Simd>(
     simd: S,
     poses: &[PoseMatrices],
     lanes: &mut [[S::Lanes; 9]; Joint::COUNT],
-) {
+) -> S::Lanes {
     let lanes = lanes.as_flattened_mut();
+    let zero = simd.splat(0.0);
+    // Four sums, so that none waits for the last.
+    let mut poison = [zero; 4];
     for start in blocks(S::COUNT) {
         let mut block = [simd.splat(0.0); MOST_LANES];
         for (row, pose) in block.iter_mut().zip(&poses[..S::COUNT]) {
             *row = simd.load(&pose.as_flattened()[start..]);
         }
         transpose::<S>(&mut block);
+        for (place, lane) in block[..S::COUNT].iter().enumerate() {
+            poison[place % 4] = lane.mul_add(zero, poison[place % 4]);
+        }
         lanes[start..start + S::COUNT].copy_from_slice(&block[..S::COUNT]);
     }
+    (poison[0] + poison[1]) + (poison[2] + poison[3])
 }
 
 /// `poses` are as many as lanes.

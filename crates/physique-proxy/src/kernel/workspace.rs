@@ -21,6 +21,7 @@ pub(crate) struct Workspace<L> {
     /// Centre, and half its squared length; padded, so that every quad can be read as four.
     pub(crate) spheres: Vec<[L; 4]>,
     pub(crate) by_spheres: Vec<[L; 3]>,
+    pub(crate) by_reaches: Vec<L>,
     pub(crate) quad_bounds: Vec<Bounds<L>>,
     pub(crate) group_bounds: Vec<Bounds<L>>,
     /// Survivors of the broad phase.
@@ -42,6 +43,7 @@ impl<L: Copy> Workspace<L> {
             by_world: [[zero; 12]; Joint::COUNT],
             spheres: vec![[zero; 4]; plan.sphere_count() + QUAD - 1],
             by_spheres: vec![[zero; 3]; plan.sphere_count()],
+            by_reaches: vec![zero; plan.sphere_count()],
             quad_bounds: vec![[[zero; 3]; 2]; plan.quads.len()],
             group_bounds: vec![[[zero; 3]; 2]; plan.groups.len()],
             // One more each: a survivor is written before it is counted.

@@ -1,8 +1,9 @@
 //! The fused kernels of every backend against the slow reference.
 
+use glam::{DVec3, Vec3};
 use physique_proxy::{
     Backend, Error, Pairs, Penalty, PoseMatrices, SelfIntersection, SelfIntersectionOptions,
-    SphereBody, reference,
+    ShapeGradient, SphereBody, reference,
 };
 
 use crate::crude;
@@ -24,6 +25,12 @@ fn compare(
     let mut by_poses = vec![[[f32::NAN; 9]; 22]; poses.len()];
     loss.gradient(poses, &weights, &mut losses, &mut by_poses)
         .expect("finite");
+    let mut by_poses_too = by_poses.clone();
+    let mut losses_too = losses.clone();
+    let shape = loss.shape_gradient(poses, &weights, &mut losses_too, &mut by_poses_too);
+    let shape = shape.expect("finite");
+    assert_eq!((&losses, &by_poses), (&losses_too, &by_poses_too));
+    let mut by_shape = Reference::new(body.sphere_count());
     let mut only_losses = vec![f32::NAN; poses.len()];
     loss.losses(poses, &mut only_losses).expect("finite");
     assert_eq!(losses, only_losses);
@@ -41,8 +48,61 @@ fn compare(
                 by_gradient = by_gradient.max((f64::from(*by) - expected).abs());
             }
         }
+        by_shape.add(&gradient, f64::from(weights[frame]));
     }
+    by_shape.compare(&shape);
     (by_value, by_gradient)
+}
+
+/// Sums of the reference's derivatives by the shape.
+struct Reference {
+    rest_joints: [DVec3; 22],
+    centres: Vec<DVec3>,
+    radii: Vec<f64>,
+}
+
+impl Reference {
+    fn new(spheres: usize) -> Self {
+        Self {
+            rest_joints: [DVec3::ZERO; 22],
+            centres: vec![DVec3::ZERO; spheres],
+            radii: vec![0.0; spheres],
+        }
+    }
+
+    fn add(&mut self, gradient: &reference::Gradient, weight: f64) {
+        for (sum, by) in self.rest_joints.iter_mut().zip(&gradient.rest_joints) {
+            *sum += weight * by;
+        }
+        for (sum, by) in self.centres.iter_mut().zip(&gradient.centres) {
+            *sum += weight * by;
+        }
+        for (sum, by) in self.radii.iter_mut().zip(&gradient.radii) {
+            *sum += weight * by;
+        }
+    }
+
+    /// Within rounding of the largest of each kind: sums over frames grow.
+    fn compare(&self, shape: &ShapeGradient) {
+        let vectors = |sums: &[DVec3], found: &[Vec3]| {
+            let largest = sums.iter().map(|sum| sum.length()).fold(1.0, f64::max);
+            for (sum, found) in sums.iter().zip(found) {
+                assert!(
+                    sum.distance(found.as_dvec3()) < 1e-5 * largest,
+                    "{sum} {found}"
+                );
+            }
+        };
+        vectors(&self.rest_joints, &shape.rest_joints);
+        vectors(&self.centres, &shape.centres);
+        let largest = self.radii.iter().copied().fold(1.0, f64::max);
+        for (sum, found) in self.radii.iter().zip(&shape.radii) {
+            assert!(
+                (sum - f64::from(*found)).abs() < 1e-5 * largest,
+                "{sum} {found}"
+            );
+        }
+    }
 }
 
 fn options(backend: Backend) -> SelfIntersectionOptions {

@@ -3,5 +3,6 @@
 mod crude;
 mod fused;
 mod golden;
+mod invariance;
 mod reference;
 mod support;
