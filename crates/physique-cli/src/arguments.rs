@@ -3,11 +3,11 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
-use physique::{Condition, Protocol};
+use clap::{Args, Parser, Subcommand};
 
 use crate::body_choice::BodyArguments;
 use crate::convert::arguments::ConvertArguments;
+use crate::score::arguments::ScoreArguments;
 
 /// Human motion that a body could really perform: score it, look at it, convert it.
 #[derive(Debug, Parser)]
@@ -27,8 +27,9 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
-    /// Measure how much a body passes through itself in each motion.
-    Score(ScoreArguments),
+    /// Measure what a body could not really perform: self-intersection, ground, feet, balance,
+    /// smoothness; by Physique's own or published definitions.
+    Score(Box<ScoreArguments>),
     /// Draw a motion on a body: a contact sheet over time, intersections in red.
     View(ViewArguments),
     /// Bring motions to the body and write them in any format: BVH, AMASS, GLB, HumanML3D, KIT, CSV.
@@ -78,59 +79,6 @@ pub(crate) enum RotationsName {
     InverseKinematics,
     /// The self-intersection paper's own layer: heading only, no twist.
     PaperLayer,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct ScoreArguments {
-    /// Motion files, or folders that are searched for them.
-    #[arg(required_unless_present = "schema", value_name = "FILE")]
-    pub(crate) files: Vec<PathBuf>,
-    #[command(flatten)]
-    pub(crate) body: BodyArguments,
-    #[command(flatten)]
-    pub(crate) read: ReadArguments,
-    /// Definition of the measures.
-    #[arg(long, value_enum, default_value_t = ProtocolName::Native)]
-    pub(crate) protocol: ProtocolName,
-    /// Distance between the lines along which volume is measured, in metres.
-    #[arg(long, value_name = "METRES", default_value_t = 0.01)]
-    pub(crate) spacing: f32,
-    /// Print JSON, whose schema `--schema` prints.
-    #[arg(long, conflicts_with = "csv")]
-    pub(crate) json: bool,
-    /// Print comma-separated values, one line a motion.
-    #[arg(long)]
-    pub(crate) csv: bool,
-    /// Show only the N worst motions in the table, worst first.
-    #[arg(long, value_name = "N", conflicts_with_all = ["json", "csv"])]
-    pub(crate) worst: Option<usize>,
-    /// Write the table, JSON or CSV to a file instead of printing it.
-    #[arg(short, long, value_name = "FILE")]
-    pub(crate) output: Option<PathBuf>,
-    /// Exit with code 3 if a motion meets this condition, such as
-    /// `self_intersection_mean_cm3>20 or self_intersection_worst_cm3>300`.
-    #[arg(long, value_name = "EXPR")]
-    pub(crate) fail_on: Option<Condition>,
-    /// Print the JSON schema of `--json` and exit.
-    #[arg(long, exclusive = true)]
-    pub(crate) schema: bool,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum ProtocolName {
-    /// Exact along lines; intersections apart from creases.
-    Native,
-    /// The published voxel metric, normalised into the unit ball.
-    Sia,
-}
-
-impl From<ProtocolName> for Protocol {
-    fn from(name: ProtocolName) -> Self {
-        match name {
-            ProtocolName::Native => Self::Native,
-            ProtocolName::Sia => Self::Sia,
-        }
-    }
 }
 
 #[derive(Debug, Args)]

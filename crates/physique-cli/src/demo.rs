@@ -6,7 +6,7 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 use physique::load::load_recording;
 use physique::motion::{Motion, embedded};
-use physique::report::MotionReport;
+use physique::report::{MotionReport, ReportHead};
 use physique::{Report, ScoreOptions, Scorer};
 use physique_view::MotionSheet;
 
@@ -26,6 +26,8 @@ pub(crate) fn run(arguments: &DemoArguments) -> Result<Exit> {
         let loaded = load_recording(clip.load()?, scorer.body())?;
         motions.push(MotionReport {
             file: clip.name.to_owned(),
+            name: clip.name.to_owned(),
+            text: None,
             score: Some(scorer.score(&loaded.motion)?),
             unscorable: None,
             mapping: None,
@@ -33,7 +35,10 @@ pub(crate) fn run(arguments: &DemoArguments) -> Result<Exit> {
         });
         draw(&scorer, clip.name, clip.summary, &loaded.motion, arguments)?;
     }
-    let report = Report::new(scorer.options().protocol, scorer.body(), motions);
+    let report = Report {
+        head: ReportHead::new(scorer.options(), scorer.body()),
+        motions,
+    };
     let json = serde_json::to_string_pretty(&report)? + "\n";
     write_file(&folder.join("scores.json"), json.as_bytes())?;
 

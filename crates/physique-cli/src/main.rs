@@ -1,14 +1,19 @@
 //! `physique`: human motion that a body could really perform, from the command line.
 
 mod arguments;
+mod batch;
 mod body_choice;
 mod convert;
 mod demo;
 mod exit;
 mod files;
+mod journal;
+mod names;
+mod parquet;
 mod progress;
 mod score;
 mod table;
+mod text_table;
 mod view;
 
 use std::process::ExitCode;

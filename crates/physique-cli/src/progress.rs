@@ -34,6 +34,12 @@ impl Progress {
         self.bar.set_message(total.to_string());
     }
 
+    /// So many were done by an earlier run.
+    pub(crate) fn skip(&self, files: usize) {
+        self.bar.set_position(files as u64);
+        self.bar.reset_eta();
+    }
+
     /// A whole motion is done.
     pub(crate) fn motion(&self) {
         self.bar.inc(1);

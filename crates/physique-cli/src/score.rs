@@ -1,21 +1,28 @@
 //! `physique score`.
 
+pub(crate) mod arguments;
+mod columns;
+mod format;
+mod merge;
+mod protocols;
+
 use std::io::Write;
 use std::path::Path;
 
-use anyhow::{Context, Result};
-use physique::load::{self, LoadOptions};
-use physique::report::{MotionReport, measure_names, measures};
-use physique::{Report, ScoreOptions, Scorer};
-use rayon::prelude::*;
+use anyhow::{Result, bail};
+use physique::load::{LoadOptions, load_each};
+use physique::report::{MotionReport, ReportHead};
+use physique::{Report, Scorer};
+use physique_files::write_file;
+use serde::Serialize;
 
-use crate::arguments::ScoreArguments;
+use crate::batch::{Job, JobIdentity, without};
 use crate::exit::Exit;
 use crate::files::motion_files;
-use crate::progress::Progress;
-use crate::table::table;
+use crate::journal::Journal;
 use crate::view::load_options;
-use physique_files::write_file;
+use arguments::ScoreArguments;
+use format::Format;
 
 pub(crate) fn run(arguments: &ScoreArguments) -> Result<Exit> {
     if arguments.schema {
@@ -23,82 +30,127 @@ pub(crate) fn run(arguments: &ScoreArguments) -> Result<Exit> {
         println!("{}", serde_json::to_string_pretty(&schema)?);
         return Ok(Exit::Done);
     }
-    let body = arguments.body.body()?;
-    let options = ScoreOptions {
-        protocol: arguments.protocol.into(),
-        spacing_m: arguments.spacing,
+    if arguments.protocols {
+        print!("{}", protocols::listed());
+        return Ok(Exit::Done);
+    }
+    let (report, job, journal) = match arguments.batch.merge {
+        true => (merge::merge(&arguments.files)?, None, None),
+        false => {
+            let (report, job, journal) = score(arguments)?;
+            (report, Some(job), journal)
+        }
     };
-    let scorer = Scorer::new(body, options)?;
-    let files = motion_files(&arguments.files)?;
-    let load_options = load_options(&arguments.read)?;
-
-    let progress = Progress::new(files.len());
-    let motions: Vec<MotionReport> = files
-        .par_iter()
-        .flat_map_iter(|file| {
-            let reports = score_file(&scorer, file, &load_options, |frames| {
-                progress.frames(frames)
-            });
-            progress.motion();
-            reports
-        })
-        .collect();
-    progress.finish();
-
-    let report = Report::new(options.protocol, scorer.body(), motions);
-    let text = if arguments.json {
-        serde_json::to_string_pretty(&report)? + "\n"
-    } else if arguments.csv {
-        csv(&report)?
-    } else {
-        table(&report, arguments.worst)
-    };
-    match &arguments.output {
-        Some(path) => write_file(path, text.as_bytes())?,
-        None => std::io::stdout().write_all(text.as_bytes())?,
+    write(&report, job.as_ref(), arguments)?;
+    if let Some(journal) = journal {
+        journal.finish()?;
     }
     Ok(judge(&report, arguments))
+}
+
+/// What a run is: another one may continue it only if all of this is the same.
+#[derive(Serialize)]
+struct RunIdentity<'a> {
+    head: &'a ReportHead,
+    spacing_m: f32,
+    series: bool,
+    frame_rate: Option<f64>,
+    mapping: Option<String>,
+    job: &'a JobIdentity,
+}
+
+fn score(
+    arguments: &ScoreArguments,
+) -> Result<(Report, JobIdentity, Option<Journal<MotionReport>>)> {
+    let output = &arguments.output;
+    if arguments.batch.shard.is_some() && !Format::of(output).can_be_a_part() {
+        bail!("--shard: expected an output that ends in .jsonl or .parquet");
+    }
+    let options = arguments
+        .measure
+        .options(output.series || output.frames.is_some());
+    let scorer = Scorer::new(arguments.body.body()?, options)?;
+    let files = motion_files(&arguments.files)?;
+    let files = without(files, arguments.batch.exclude.as_deref())?;
+    let job = Job::new(files, arguments.batch.shard);
+    let load_options = load_options(&arguments.read)?;
+
+    let head = ReportHead::new(scorer.options(), scorer.body());
+    let mapping = arguments.read.mapping.as_ref().map(std::fs::read_to_string);
+    let identity = RunIdentity {
+        head: &head,
+        spacing_m: scorer.options().spacing_m,
+        series: scorer.options().series,
+        frame_rate: arguments.read.frame_rate,
+        mapping: mapping.transpose()?,
+        job: &job.identity,
+    };
+    let journal = output.output.as_ref().or(output.parquet.as_ref());
+    let journal = journal
+        .map(|path| Journal::open(path, &identity))
+        .transpose()?;
+    let (motions, journal) = job.run(journal, |file, progress| {
+        score_file(&scorer, file, &load_options, |frames| {
+            progress.frames(frames)
+        })
+    })?;
+    Ok((Report { head, motions }, job.identity, journal))
 }
 
 /// Scores all motions of a file; what goes wrong becomes a motion's `unscorable`.
 fn score_file(
     scorer: &Scorer,
-    file: &Path,
+    path: &Path,
     options: &LoadOptions,
     progress: impl Fn(usize) + Sync,
 ) -> Vec<MotionReport> {
-    let motions = match load::load_each(file, scorer.body(), options) {
+    let file = path.display().to_string();
+    let file_name = path.file_name().unwrap_or(path.as_os_str());
+    let unscorable =
+        |name: String, reason: String| MotionReport::unscorable(file.clone(), name, reason);
+    let whole = || file_name.to_string_lossy().into_owned();
+    let motions = match load_each(path, scorer.body(), options) {
+        Ok(motions) if motions.is_empty() => {
+            return vec![unscorable(whole(), format!("{file} holds no motion."))];
+        }
         Ok(motions) => motions,
-        Err(problem) => return vec![not_scored(file.display().to_string(), &problem)],
+        Err(problem) => return vec![unscorable(whole(), problem.to_string())],
     };
     let reports = motions.into_iter().map(|(name, loaded)| {
-        let name = file.with_file_name(name).display().to_string();
         let outcome = loaded.and_then(|loaded| {
             let score = scorer.score_with_progress(&loaded.motion, &progress)?;
             Ok((loaded, score))
         });
         match outcome {
             Ok((loaded, score)) => MotionReport {
-                file: name,
+                file: file.clone(),
+                name,
+                mapping: loaded.mapping_summary(),
+                text: loaded.text,
                 score: Some(score),
                 unscorable: None,
-                mapping: loaded.mapping_summary(),
                 notes: loaded.notes,
             },
-            Err(problem) => not_scored(name, &problem),
+            Err(problem) => unscorable(name, problem.to_string()),
         }
     });
     reports.collect()
 }
 
-fn not_scored(file: String, problem: &physique::Error) -> MotionReport {
-    MotionReport {
-        file,
-        score: None,
-        unscorable: Some(problem.to_string()),
-        mapping: None,
-        notes: Vec::new(),
+fn write(report: &Report, job: Option<&JobIdentity>, arguments: &ScoreArguments) -> Result<()> {
+    let output = &arguments.output;
+    if let Some(path) = &output.parquet {
+        write_file(path, &Format::Parquet.bytes(report, job, None)?)?;
     }
+    if let Some(path) = &output.frames {
+        write_file(path, &format::frames(path, report)?)?;
+    }
+    let bytes = Format::of(output).bytes(report, job, output.worst)?;
+    match &output.output {
+        Some(path) => write_file(path, &bytes)?,
+        None => std::io::stdout().write_all(&bytes)?,
+    }
+    Ok(())
 }
 
 fn judge(report: &Report, arguments: &ScoreArguments) -> Exit {
@@ -114,7 +166,10 @@ fn judge(report: &Report, arguments: &ScoreArguments) -> Exit {
                 Some(true) => exit = Exit::ConditionMet,
                 Some(false) => {}
                 None => {
-                    eprintln!("physique: --fail-on names a measure of another protocol");
+                    eprintln!(
+                        "physique: {}: --fail-on names a measure that was not measured",
+                        motion.file
+                    );
                     return Exit::Failed;
                 }
             },
@@ -122,24 +177,4 @@ fn judge(report: &Report, arguments: &ScoreArguments) -> Exit {
         }
     }
     exit
-}
-
-fn csv(report: &Report) -> Result<String> {
-    let names = measure_names(report.protocol);
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let header = ["file"].into_iter().chain(names.iter().copied());
-    writer.write_record(header.chain(["unscorable"]))?;
-    for motion in &report.motions {
-        let measured = motion.score.as_ref().map(measures).unwrap_or_default();
-        let value = |name: &&str| {
-            let found = measured.iter().find(|(measure, _)| measure == name);
-            found.map_or(String::new(), |(_, value)| value.to_string())
-        };
-        let record = std::iter::once(motion.file.clone())
-            .chain(names.iter().map(value))
-            .chain([motion.unscorable.clone().unwrap_or_default()]);
-        writer.write_record(record)?;
-    }
-    let bytes = writer.into_inner().context("writing CSV")?;
-    Ok(String::from_utf8(bytes)?)
 }

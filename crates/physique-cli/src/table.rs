@@ -1,52 +1,29 @@
 //! Scores as a table that a person likes to read.
 
-use comfy_table::{Cell, CellAlignment, Color, ContentArrangement, LineStyle, Table, TableStyle};
 use physique::report::MotionReport;
-use physique::{MotionScore, Protocol, Report};
+use physique::{Group, MotionScore, Protocol, Report};
 
-/// Three rules, as in a printed table.
-const STYLE: TableStyle = TableStyle::new()
-    .top_border(LineStyle::none().fill('─').junction('─'))
-    .header_separator(LineStyle::none().fill('─').junction('─'))
-    .bottom_border(LineStyle::none().fill('─').junction('─'));
+use crate::text_table::{Column, render};
 
-/// A report as a table with a line about the body; only the `worst` motions, worst first, if asked.
+/// A report as tables with a line about the body; only the `worst` motions, worst first, if asked.
 pub(crate) fn table(report: &Report, worst: Option<usize>) -> String {
-    let body = &report.body;
-    let mut table = Table::new();
-    table.load_style(STYLE);
-    table.set_content_arrangement(ContentArrangement::Dynamic);
-    let figures: &[&str] = match report.protocol {
-        Protocol::Native => &[
-            "self-intersection\nmean, cm³",
-            "worst\ncm³",
-            "at\ns",
-            "frames above\n50 cm³, %",
-            "creases\nmean, cm³",
-            "in ground\nmean, cm",
-            "floating\nmean, cm",
-            "sliding\ncm/s",
-            "jerk\nm/s³",
-        ],
-        Protocol::Sia => &["SI mean\ncm³ of the ball", "SI\n% of volume"],
-    };
-    let mut header = vec!["motion", "length\ns"];
-    header.extend(figures);
-    header.push(match report.protocol {
-        Protocol::Native => "worst pair\nmean, cm³",
-        Protocol::Sia => "remarks",
-    });
-    table.set_header(header);
-    for motion in shown(report, worst) {
-        table.add_row(row(motion, report.protocol, figures.len()));
+    let motions = shown(report, worst);
+    let mut text = String::new();
+    for &protocol in &report.head.protocols {
+        text += &match protocol {
+            Protocol::Native => native(&motions, &report.head.groups),
+            Protocol::Sia => sia(&motions),
+            Protocol::Published(_) => published(&motions, protocol),
+        };
     }
-    for column in 1..=figures.len() + 1 {
-        if let Some(column) = table.column_mut(column) {
-            column.set_cell_alignment(CellAlignment::Right);
+    for motion in &motions {
+        if let Some(reason) = &motion.unscorable {
+            text += &format!("not scored: {}: {reason}\n", motion.name);
         }
     }
-    format!(
-        "{table}\n{} on the {} of {:.2} m and {:.0} kg.\n",
+    let body = &report.head.body;
+    text + &format!(
+        "{} on the {} of {:.2} m and {:.0} kg.\n",
         counted(report),
         body.model,
         body.stature_m,
@@ -65,14 +42,17 @@ fn shown(report: &Report, worst: Option<usize>) -> Vec<&MotionReport> {
     motions
 }
 
-/// Mean self-intersection; what could not be scored is worst.
+/// Mean self-intersection, where it was measured, else depth in the ground and sliding; what could
+/// not be scored is worst.
 fn badness(motion: &MotionReport) -> f64 {
     let Some(score) = &motion.score else {
         return f64::INFINITY;
     };
     let native = score.self_intersection.as_ref().map(|found| found.mean_cm3);
     let sia = score.sia.as_ref().map(|found| found.self_intersection_cm3);
-    native.or(sia).unwrap_or(f64::INFINITY)
+    let ground = score.ground.as_ref().map(|found| found.penetration_mean_cm);
+    let feet = score.feet.as_ref().map(|found| found.slide_mean_cm_s);
+    native.or(sia).or(ground).or(feet).unwrap_or(0.0)
 }
 
 fn counted(report: &Report) -> String {
@@ -90,68 +70,159 @@ fn counted(report: &Report) -> String {
     format!("{count} motions, {frames} frames{missing}")
 }
 
-fn row(motion: &MotionReport, protocol: Protocol, figures: usize) -> Vec<Cell> {
-    let mut row = vec![Cell::new(short_name(&motion.file))];
-    let Some(score) = &motion.score else {
-        row.extend((0..=figures).map(|_| Cell::new("–")));
-        let reason = motion.unscorable.as_deref().unwrap_or("not scored");
-        row.push(Cell::new(reason).fg(Color::Red));
-        return row;
-    };
-    row.push(Cell::new(format!("{:.1}", score.duration_s)));
-    match protocol {
-        Protocol::Native => native(score, &mut row),
-        Protocol::Sia => sia(score, &mut row),
+/// A column and how to fill it.
+type Figure = (Column, fn(&MotionScore) -> Option<String>);
+
+/// Physique's own measures, grouped.
+fn native(motions: &[&MotionReport], groups: &[Group]) -> String {
+    let figures: Vec<Figure> = groups.iter().flat_map(|&group| figures(group)).collect();
+    let mut columns = vec![
+        Column::words(&["motion"]),
+        Column::number("", &["length", "s"]),
+    ];
+    columns.extend(figures.iter().map(|(column, _)| column.clone()));
+    let with_pair = groups.contains(&Group::SelfIntersection);
+    if with_pair {
+        columns.push(Column::words(&["worst pair", "mean, cm³"]));
     }
-    row
-}
-
-fn native(score: &MotionScore, row: &mut Vec<Cell>) {
-    let Some(found) = &score.self_intersection else {
-        return;
-    };
-    let worst = found.pairs.iter().find(|pair| !pair.crease);
-    let pair = worst.map_or(String::new(), |pair| {
-        format!("{} – {} {:.1}", pair.parts[0], pair.parts[1], pair.mean_cm3)
+    let rows = motions.iter().map(|motion| {
+        let score = motion.score.as_ref();
+        let length = score.map(|score| format!("{:.1}", score.duration_s));
+        let mut row = vec![motion.name.clone(), or_dash(length)];
+        let cells = figures
+            .iter()
+            .map(|(_, figure)| or_dash(score.and_then(figure)));
+        row.extend(cells);
+        if with_pair {
+            row.push(score.map_or(String::new(), worst_pair));
+        }
+        row
     });
-    row.extend([
-        Cell::new(format!("{:.1}", found.mean_cm3)),
-        Cell::new(format!("{:.0}", found.worst_cm3)),
-        Cell::new(format!("{:.2}", found.worst_s)),
-        Cell::new(format!("{:.0}", found.frames_above_50_cm3_percent)),
-        Cell::new(format!("{:.0}", found.crease_mean_cm3)),
-    ]);
-    row.extend(physics(score));
-    row.push(Cell::new(pair));
+    render(&columns, &rows.collect::<Vec<_>>())
 }
 
-/// Ground, feet and smoothness; a dash for what the clip does not have. Balance stays in the JSON
-/// until its figures on mapped walking are understood.
-fn physics(score: &MotionScore) -> [Cell; 4] {
-    let found = score.physics.as_ref();
-    let smoothness = found.and_then(|found| found.smoothness.as_ref());
-    let cell = |value: Option<f64>, digits| match value {
-        Some(value) => Cell::new(format!("{value:.digits$}")),
-        None => Cell::new("–"),
+/// The figures of a group that a table shows. Balance stays in the JSON until its figures on mapped
+/// walking are understood.
+fn figures(group: Group) -> Vec<Figure> {
+    match group {
+        Group::SelfIntersection => {
+            let number = |heading: [&str; 2]| Column::number("self-intersection", &heading);
+            vec![
+                (number(["mean", "cm³"]), |score| {
+                    Some(format!("{:.1}", score.self_intersection.as_ref()?.mean_cm3))
+                }),
+                (number(["worst", "cm³"]), |score| {
+                    Some(format!(
+                        "{:.0}",
+                        score.self_intersection.as_ref()?.worst_cm3
+                    ))
+                }),
+                (number(["at", "s"]), |score| {
+                    Some(format!("{:.1}", score.self_intersection.as_ref()?.worst_s))
+                }),
+            ]
+        }
+        Group::Ground => {
+            let number = |heading: [&str; 2]| Column::number("ground", &heading);
+            vec![
+                (number(["in", "cm"]), |score| {
+                    Some(format!("{:.1}", score.ground.as_ref()?.penetration_mean_cm))
+                }),
+                (number(["above", "cm"]), |score| {
+                    Some(format!("{:.1}", score.ground.as_ref()?.floating_mean_cm))
+                }),
+            ]
+        }
+        Group::Feet => vec![(Column::number("feet", &["slide", "cm/s"]), |score| {
+            Some(format!("{:.1}", score.feet.as_ref()?.slide_mean_cm_s))
+        })],
+        Group::Balance => Vec::new(),
+        Group::Smoothness => vec![(Column::number("smooth", &["jerk", "m/s³"]), |score| {
+            Some(format!("{:.0}", score.smoothness.as_ref()?.jerk_mean_m_s3))
+        })],
+    }
+}
+
+fn or_dash(cell: Option<String>) -> String {
+    cell.unwrap_or_else(|| "–".to_owned())
+}
+
+/// Names of the parts with L and R for left and right, and their volume.
+fn worst_pair(score: &MotionScore) -> String {
+    let pairs = score.self_intersection.as_ref().map(|found| &found.pairs);
+    let worst = pairs.and_then(|pairs| pairs.iter().find(|pair| !pair.crease));
+    worst.map_or(String::new(), |pair| {
+        let [one, other] = [0, 1].map(|index| {
+            let part: &str = &pair.parts[index];
+            part.replace("left ", "L ").replace("right ", "R ")
+        });
+        format!("{one} – {other} {:.1}", pair.mean_cm3)
+    })
+}
+
+fn sia(motions: &[&MotionReport]) -> String {
+    let columns = [
+        Column::words(&["motion"]),
+        Column::number("sia", &["mean, cm³", "of the unit ball"]),
+        Column::number("sia", &["% of", "volume"]),
+    ];
+    let rows = motions.iter().map(|motion| {
+        let found = motion.score.as_ref().and_then(|score| score.sia);
+        vec![
+            motion.name.clone(),
+            or_dash(found.map(|found| format!("{:.0}", found.self_intersection_cm3))),
+            or_dash(found.map(|found| format!("{:.2}", found.self_intersection_percent))),
+        ]
+    });
+    render(&columns, &rows.collect::<Vec<_>>())
+}
+
+/// The measures of another protocol under their own names, a word a line.
+fn published(motions: &[&MotionReport], protocol: Protocol) -> String {
+    let Protocol::Published(names) = protocol else {
+        return String::new();
     };
-    [
-        cell(found.map(|found| found.ground.penetration_mean_cm), 1),
-        cell(found.map(|found| found.ground.floating_mean_cm), 1),
-        cell(found.map(|found| found.feet.slide_mean_cm_s), 1),
-        cell(smoothness.map(|smoothness| smoothness.jerk_mean_m_s3), 0),
-    ]
+    let names = names.measure_names();
+    let mut columns = vec![Column::words(&["motion"])];
+    columns.extend(names.iter().map(|name| {
+        let (name, unit) = name_and_unit(name);
+        let words: Vec<_> = name.split('_').chain([unit]).collect();
+        Column::number(protocol.name(), &words)
+    }));
+    let rows = motions.iter().map(|motion| {
+        let score = motion.score.as_ref();
+        let found = score.and_then(|score| {
+            let mut published = score.published.iter();
+            published.find(|published| published.protocol == protocol)
+        });
+        let value = |name: &&str| {
+            let value = found.and_then(|found| *found.measures.get(*name)?);
+            or_dash(value.map(|value| format!("{value:.3}")))
+        };
+        let mut row = vec![motion.name.clone()];
+        row.extend(names.iter().map(value));
+        row
+    });
+    render(&columns, &rows.collect::<Vec<_>>())
 }
 
-fn sia(score: &MotionScore, row: &mut Vec<Cell>) {
-    let Some(found) = &score.sia else { return };
-    row.extend([
-        Cell::new(format!("{:.0}", found.self_intersection_cm3)),
-        Cell::new(format!("{:.2}", found.self_intersection_percent)),
-        Cell::new(""),
-    ]);
-}
+/// Units as names end in them, and as people write them; longer ones first.
+const UNITS: [(&str, &str); 10] = [
+    ("_cm_per_frame", "cm/frame"),
+    ("_mm_per_frame", "mm/frame"),
+    ("_m_s2", "m/s²"),
+    ("_cm_s", "cm/s"),
+    ("_m_s", "m/s"),
+    ("_percent", "%"),
+    ("_cm", "cm"),
+    ("_mm", "mm"),
+    ("_m", "m"),
+    ("_ratio", "ratio"),
+];
 
-/// The last part of a path: what tells the rows apart.
-fn short_name(file: &str) -> &str {
-    file.rsplit(['/', '\\']).next().unwrap_or(file)
+fn name_and_unit(name: &str) -> (&str, &str) {
+    let mut units = UNITS.into_iter();
+    units
+        .find_map(|(ending, unit)| Some((name.strip_suffix(ending)?, unit)))
+        .unwrap_or((name, ""))
 }

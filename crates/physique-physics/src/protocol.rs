@@ -88,6 +88,66 @@ impl Protocol {
         }
     }
 
+    /// Names of its measures, in the order of [`measure`].
+    pub const fn measure_names(self) -> &'static [&'static str] {
+        match self {
+            Self::HumosReleased => &[
+                "penetrate_cm",
+                "float_cm",
+                "skate_cm_s",
+                "skate_percent",
+                "dyn_stability_percent",
+                "bos_dist_cm",
+            ],
+            Self::HumosCorrected => &[
+                "penetrate_cm",
+                "float_cm",
+                "skate_cm_s",
+                "skate_percent",
+                "dyn_stability_percent",
+                "bos_dist_cm",
+                "unjudged_percent",
+            ],
+            Self::PhysDiff => &[
+                "penetrate_mm",
+                "float_mm",
+                "skate_mm_per_frame",
+                "phys_err_mm",
+            ],
+            Self::Gmd => &["skating_ratio"],
+            Self::ReinDiffuse => &[
+                "skate_2_5_cm_ratio",
+                "skate_5_cm_ratio",
+                "float_m",
+                "penetrate_m",
+                "clip_ratio",
+            ],
+            Self::Kimodo => &[
+                "skating_contact_ratio",
+                "toe_speed_in_contact_m_s",
+                "labelled_contact_speed_mean_m_s",
+                "labelled_contact_speed_max_m_s",
+            ],
+            Self::EdgePfc => &["pfc"],
+            Self::Mann => &["skate_cm_per_frame"],
+            Self::Humor => &[
+                "toes_below_0_cm_percent",
+                "toes_below_3_cm_percent",
+                "toes_below_6_cm_percent",
+                "toes_below_9_cm_percent",
+                "toes_below_12_cm_percent",
+                "toes_below_15_cm_percent",
+                "penetration_depth_cm",
+                "joint_acceleration_m_s2",
+            ],
+            Self::Ipman => &[
+                "com_cop_distance_mm",
+                "com_in_base_of_support_percent",
+                "frames_with_contact_percent",
+            ],
+        }
+    }
+
     /// Frames a second that the definition assumes; `None` where frames stand alone.
     pub const fn frame_rate(self) -> Option<f64> {
         match self {

@@ -198,3 +198,13 @@ fn resampling_keeps_ends_and_straight_lines() {
         glide
     );
 }
+
+#[test]
+fn every_protocol_measures_what_it_names() {
+    let standing = rigid(|_| Vec3::ZERO);
+    for protocol in Protocol::ALL {
+        let measures = measure(&PHYSICS, &standing, protocol, Floor::AsGiven).unwrap();
+        let names: Vec<_> = measures.iter().map(|measure| measure.name).collect();
+        assert_eq!(names, protocol.measure_names(), "{protocol}");
+    }
+}

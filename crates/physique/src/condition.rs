@@ -2,8 +2,8 @@
 
 use std::str::FromStr;
 
-use crate::report::{measure_names, measures};
-use crate::{Error, MotionScore, Protocol};
+use crate::measures::{measure_names, measures};
+use crate::{Error, Group, MotionScore, Protocol};
 
 /// A condition such as `self_intersection_mean_cm3>20 or self_intersection_worst_cm3>300`.
 ///
@@ -25,7 +25,7 @@ pub struct Condition {
 
 #[derive(Clone, Debug, PartialEq)]
 struct Comparison {
-    measure: &'static str,
+    measure: String,
     operator: Operator,
     number: f64,
 }
@@ -102,21 +102,16 @@ fn parse_comparison(text: &str) -> Result<Comparison, String> {
             Some((name.trim(), operator, number.trim()))
         })
         .ok_or_else(|| format!("no comparison in `{}`", text.trim()))?;
-    let known = [Protocol::Native, Protocol::Sia];
-    let measure = known
-        .into_iter()
-        .flat_map(measure_names)
-        .find(|&known| known == name)
-        .ok_or_else(|| {
-            let names = known.map(|protocol| measure_names(protocol).join(", "));
-            format!(
-                "the unknown measure `{name}`; known are {}",
-                names.join(", ")
-            )
-        })?;
+    let known = measure_names(&Protocol::ALL, &Group::ALL);
+    let measure = known.iter().find(|&known| known == name).ok_or_else(|| {
+        format!(
+            "the unknown measure `{name}`; known are {}",
+            known.join(", ")
+        )
+    })?;
     match number.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(Comparison {
-            measure,
+            measure: measure.to_string(),
             operator,
             number,
         }),
@@ -133,9 +128,15 @@ mod tests {
             frames,
             frame_rate_fps: 30.0,
             duration_s,
+            floor_height_m: None,
             self_intersection: None,
-            physics: None,
+            ground: None,
+            feet: None,
+            balance: None,
+            smoothness: None,
             sia: None,
+            published: Vec::new(),
+            series: None,
         }
     }
 

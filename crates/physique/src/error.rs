@@ -19,6 +19,18 @@ pub enum Error {
     /// A motion without frames has no score.
     #[error("The motion has no frames: there is nothing to score.")]
     NoFrames,
+    /// Options that ask for no measure.
+    #[error("There is nothing to measure: name at least one protocol and one group of measures.")]
+    NothingToMeasure,
+    /// A name that is no protocol's.
+    #[error(
+        "Protocol `{found}`: expected {}.",
+        crate::Protocol::ALL.map(crate::Protocol::name).join(", ")
+    )]
+    Protocol {
+        /// The name given.
+        found: String,
+    },
     /// An unreadable `--fail-on` condition.
     #[error(
         "Condition `{condition}`: expected MEASURE OP NUMBER such as \

@@ -21,16 +21,22 @@
 //! # Ok::<(), physique::Error>(())
 //! ```
 
+pub mod body_description;
 pub mod condition;
 pub mod defects;
 pub mod error;
 pub mod export;
+pub mod floor;
 mod frames;
+pub mod group;
 pub mod load;
+pub mod measures;
 pub mod physics_score;
+pub mod protocol;
 pub mod report;
 pub mod score;
 pub mod self_intersection;
+pub mod series;
 pub mod sia;
 
 pub use physique_body as body;
@@ -38,9 +44,13 @@ pub use physique_geometry as geometry;
 pub use physique_motion as motion;
 pub use physique_physics as physics;
 
+pub use body_description::BodyDescription;
 pub use condition::Condition;
 pub use error::Error;
 pub use export::{ExportFormat, ExportOptions, export};
-pub use physics_score::PhysicsScore;
-pub use report::{MotionReport, Report};
-pub use score::{MotionScore, Protocol, ScoreOptions, Scorer, score};
+pub use floor::Floor;
+pub use group::Group;
+pub use protocol::{Protocol, PublishedScore};
+pub use report::{MotionReport, Report, ReportHead};
+pub use score::{MotionScore, ScoreOptions, Scorer, score};
+pub use series::Series;

@@ -3,47 +3,62 @@
 use physique_body::Body;
 use physique_geometry::ScanOptions;
 use physique_motion::Motion;
-use physique_physics::{Physics, PhysicsOptions};
+use physique_physics::protocol::measure as measure_published;
+use physique_physics::{Floor as MotionFloor, Physics, PhysicsOptions};
+use rayon::prelude::*;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use crate::Error;
+use crate::floor::lowered;
 use crate::frames::measure_frames;
-use crate::physics_score::PhysicsScore;
+use crate::measures::needs_floor;
+use crate::physics_score::{BalanceScore, FeetScore, GroundScore, SmoothnessScore};
 use crate::self_intersection::{FrameIntersections, FrameMeter, SelfIntersection, Surface};
 use crate::sia::{SiaMeter, SiaScore};
-
-/// Which definition of the measures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Protocol {
-    /// Physique's own: volumes exact along lines, intersections told apart from creases.
-    #[default]
-    Native,
-    /// The voxel metric of the self-intersection-aware papers: see [`physique_geometry::sia`].
-    Sia,
-}
+use crate::{Error, Floor, Group, Protocol, PublishedScore, Series};
 
 /// How to score.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ScoreOptions {
-    /// Which definition of the measures.
-    pub protocol: Protocol,
+    /// Which definitions of the measures.
+    pub protocols: Vec<Protocol>,
+    /// Which groups of Physique's own measures.
+    pub groups: Vec<Group>,
+    /// Where the floor is.
+    pub floor: Floor,
     /// Distance between the lines of the scan in metres; the `sia` protocol has its own grid.
     pub spacing_m: f32,
+    /// Whether the measures of every frame are kept.
+    pub series: bool,
 }
 
 impl Default for ScoreOptions {
     fn default() -> Self {
         Self {
-            protocol: Protocol::Native,
+            protocols: vec![Protocol::Native],
+            groups: Group::ALL.to_vec(),
+            floor: Floor::Zero,
             spacing_m: ScanOptions::default().spacing,
+            series: false,
         }
     }
 }
 
-/// Every measure of one motion; those of other protocols are `None`.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+impl ScoreOptions {
+    /// Whether Physique's own measures of a group are asked for.
+    pub fn wants(&self, group: Group) -> bool {
+        self.protocols.contains(&Protocol::Native) && self.groups.contains(&group)
+    }
+
+    /// Groups of ground, feet, balance and smoothness asked for.
+    fn physics_groups(&self) -> Vec<Group> {
+        let physics = Group::ALL.into_iter().skip(1);
+        physics.filter(|&group| self.wants(group)).collect()
+    }
+}
+
+/// Every measure of one motion; those not asked for are null.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MotionScore {
     /// Number of frames.
     pub frames: usize,
@@ -51,12 +66,24 @@ pub struct MotionScore {
     pub frame_rate_fps: f64,
     /// Length in seconds.
     pub duration_s: f64,
+    /// Height of the floor in the motion's world, in metres; null where nothing stands on it.
+    pub floor_height_m: Option<f64>,
     /// How much the body passes through itself.
     pub self_intersection: Option<SelfIntersection>,
-    /// Ground, feet, balance and smoothness.
-    pub physics: Option<PhysicsScore>,
+    /// Skin in the ground and above.
+    pub ground: Option<GroundScore>,
+    /// Feet that slide.
+    pub feet: Option<FeetScore>,
+    /// Whether the body could stand as it moves.
+    pub balance: Option<BalanceScore>,
+    /// How smoothly the joints move; null for clips of less than half a second or so, too.
+    pub smoothness: Option<SmoothnessScore>,
     /// The published voxel metric.
     pub sia: Option<SiaScore>,
+    /// The other published protocols.
+    pub published: Vec<PublishedScore>,
+    /// Measures of every frame.
+    pub series: Option<Series>,
 }
 
 /// Scores a motion on a body with the default options: 1 cm lines, all threads.
@@ -74,7 +101,7 @@ pub struct Scorer {
     body: Body,
     options: ScoreOptions,
     surface: Surface,
-    /// For the native protocol only.
+    /// Where something stands on a floor.
     physics: Option<Physics>,
 }
 
@@ -82,12 +109,17 @@ impl Scorer {
     /// Prepares the body's surface.
     ///
     /// # Errors
-    /// [`Error::Geometry`] for a surface that is not closed or a spacing that is not a length.
+    /// [`Error::NothingToMeasure`] for options without protocol or group; [`Error::Geometry`] for a
+    /// surface that is not closed or a spacing that is not a length.
     pub fn new(body: Body, options: ScoreOptions) -> Result<Self, Error> {
+        let of_groups = options.protocols == [Protocol::Native] && options.groups.is_empty();
+        if options.protocols.is_empty() || of_groups {
+            return Err(Error::NothingToMeasure);
+        }
         let surface = Surface::new(&body)?;
-        let physics = match options.protocol {
-            Protocol::Native => Some(Physics::new(&body)?),
-            Protocol::Sia => None,
+        let physics = match needs_floor(&options.protocols, &options.groups) {
+            true => Some(Physics::new(&body)?),
+            false => None,
         };
         let scorer = Self {
             body,
@@ -118,7 +150,7 @@ impl Scorer {
     }
 
     /// As [`Scorer::score`]; `progress` is called with the number of frames done since the last
-    /// call, from any thread.
+    /// call, from any thread: of the slowest measure, so that it adds up to the motion's frames.
     ///
     /// # Errors
     /// As [`score`].
@@ -127,39 +159,47 @@ impl Scorer {
         motion: &Motion,
         progress: impl Fn(usize) + Sync,
     ) -> Result<MotionScore, Error> {
+        if motion.frame_count() == 0 {
+            return Err(Error::NoFrames);
+        }
+        let frame_s = motion.frame_rate().frame_seconds();
+        let mut series = Series::new(motion.frame_count(), frame_s);
         let mut score = MotionScore {
             frames: motion.frame_count(),
             frame_rate_fps: motion.frame_rate().per_second(),
             duration_s: motion.seconds(),
+            floor_height_m: None,
             self_intersection: None,
-            physics: None,
+            ground: None,
+            feet: None,
+            balance: None,
+            smoothness: None,
             sia: None,
+            published: Vec::new(),
+            series: None,
         };
-        match self.options.protocol {
-            Protocol::Native => {
-                let frames = self.self_intersections(motion, progress)?;
-                let measured = SelfIntersection::summarise(
-                    &frames,
-                    motion.frame_rate().frame_seconds(),
-                    f64::from(self.options.spacing_m),
-                    self.body.volume() * 1e6,
-                );
-                score.self_intersection = Some(measured.ok_or(Error::NoFrames)?);
-                if let Some(physics) = &self.physics {
-                    let found = physics.measure(motion, &PhysicsOptions::default())?;
-                    score.physics = Some(PhysicsScore::from(&found));
-                }
-            }
-            Protocol::Sia => {
-                let frames = measure_frames(
-                    motion.frame_count(),
-                    || SiaMeter::new(&self.body, &self.surface.triangles),
-                    |meter, frame| meter.measure(motion, frame),
-                    progress,
-                )?;
-                score.sia = Some(SiaScore::summarise(&frames).ok_or(Error::NoFrames)?);
-            }
+        let scanned = self.options.wants(Group::SelfIntersection);
+        let counted = self.options.protocols.contains(&Protocol::Sia);
+        if scanned {
+            let frames = self.self_intersections(motion, &progress)?;
+            score.self_intersection = self.summary(&frames, frame_s);
+            series.add_intersections(&frames);
         }
+        if counted {
+            let told = |frames| {
+                if !scanned {
+                    progress(frames);
+                }
+            };
+            score.sia = Some(self.sia(motion, told)?);
+        }
+        if let Some(physics) = &self.physics {
+            self.measure_on_floor(physics, motion, &mut score, &mut series)?;
+        }
+        if !scanned && !counted {
+            progress(motion.frame_count());
+        }
+        score.series = self.options.series.then_some(series);
         Ok(score)
     }
 
@@ -178,6 +218,66 @@ impl Scorer {
             |meter, frame| meter.measure(motion.frame_rotations(frame)),
             progress,
         )
+    }
+
+    fn summary(&self, frames: &[FrameIntersections], frame_s: f64) -> Option<SelfIntersection> {
+        let spacing = f64::from(self.options.spacing_m);
+        SelfIntersection::summarise(frames, frame_s, spacing, self.body.volume() * 1e6)
+    }
+
+    fn sia(&self, motion: &Motion, progress: impl Fn(usize) + Sync) -> Result<SiaScore, Error> {
+        let frames = measure_frames(
+            motion.frame_count(),
+            || SiaMeter::new(&self.body, &self.surface.triangles),
+            |meter, frame| meter.measure(motion, frame),
+            progress,
+        )?;
+        SiaScore::summarise(&frames).ok_or(Error::NoFrames)
+    }
+
+    /// Ground, feet, balance, smoothness and the published protocols.
+    fn measure_on_floor(
+        &self,
+        physics: &Physics,
+        motion: &Motion,
+        score: &mut MotionScore,
+        series: &mut Series,
+    ) -> Result<(), Error> {
+        let height = self.options.floor.height(physics, motion)?;
+        score.floor_height_m = Some(height);
+        let on_floor = lowered(motion, height)?;
+        let groups = self.options.physics_groups();
+        if !groups.is_empty() {
+            let found = physics.measure(&on_floor, &PhysicsOptions::default())?;
+            for group in &groups {
+                match group {
+                    Group::SelfIntersection => {}
+                    Group::Ground => score.ground = Some(GroundScore::of(&found)),
+                    Group::Feet => score.feet = Some(FeetScore::of(&found)),
+                    Group::Balance => score.balance = Some(BalanceScore::of(&found)),
+                    Group::Smoothness => score.smoothness = SmoothnessScore::of(&found),
+                }
+            }
+            series.add_physics(&found, &groups);
+        }
+        let published = self.options.protocols.par_iter().filter_map(|&protocol| {
+            let Protocol::Published(published) = protocol else {
+                return None;
+            };
+            let measures = measure_published(physics, &on_floor, published, MotionFloor::AsGiven);
+            Some(measures.map(|measures| {
+                PublishedScore {
+                    protocol,
+                    frame_rate_fps: protocol.frame_rate(),
+                    measures: measures
+                        .into_iter()
+                        .map(|measure| (measure.name.to_owned(), measure.value))
+                        .collect(),
+                }
+            }))
+        });
+        score.published = published.collect::<Result<_, _>>()?;
+        Ok(())
     }
 
     fn meter(&self) -> Result<FrameMeter<'_>, Error> {

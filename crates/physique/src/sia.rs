@@ -10,12 +10,12 @@ use physique_geometry::Triangles;
 use physique_geometry::sia::{SiaCounter, SiaVolumes, UnitBall};
 use physique_motion::Motion;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::Error;
 
 /// Means over all frames, in the "cm3" of a body whose rest pose fills the unit ball.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SiaScore {
     /// Sum of the counts of 2 or more, times 216 cm3.
     pub self_intersection_cm3: f64,

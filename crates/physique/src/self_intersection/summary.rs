@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::FrameIntersections;
 
@@ -13,7 +13,7 @@ const THRESHOLD_CM3: f64 = 50.0;
 const PAIR_THRESHOLD_CM3: f64 = 1.0;
 
 /// How much a body passes through itself over a motion. Means are over all frames.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SelfIntersection {
     /// Distance between the lines of the scan, in metres.
     pub spacing_m: f64,
@@ -37,7 +37,7 @@ pub struct SelfIntersection {
 }
 
 /// How much two parts of the body overlap over a motion.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PairSummary {
     /// The two parts, in everyday words.
     pub parts: [String; 2],
