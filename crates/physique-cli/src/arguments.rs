@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::body_choice::BodyArguments;
 use crate::convert::arguments::ConvertArguments;
+use crate::scan::arguments::ScanArguments;
 use crate::score::arguments::ScoreArguments;
 
 /// Human motion that a body could really perform: score it, look at it, convert it.
@@ -30,6 +31,9 @@ pub(crate) enum Verb {
     /// Measure what a body could not really perform: self-intersection, ground, feet, balance,
     /// smoothness; by Physique's own or published definitions.
     Score(Box<ScoreArguments>),
+    /// Find the bad clips of a collection: unreadable, jumping, frozen, at a wrong frame rate, sunk,
+    /// floating, deep in themselves; write a list of them.
+    Scan(Box<ScanArguments>),
     /// Draw a motion on a body: a contact sheet over time, intersections in red.
     View(ViewArguments),
     /// Bring motions to the body and write them in any format: BVH, AMASS, GLB, HumanML3D, KIT, CSV.

@@ -11,6 +11,7 @@ mod journal;
 mod names;
 mod parquet;
 mod progress;
+mod scan;
 mod score;
 mod table;
 mod text_table;
@@ -35,6 +36,7 @@ fn main() -> ExitCode {
     }
     let outcome = match &arguments.verb {
         Verb::Score(arguments) => score::run(arguments),
+        Verb::Scan(arguments) => scan::run(arguments),
         Verb::View(arguments) => view::run(arguments),
         Verb::Convert(arguments) => convert::run(arguments),
         Verb::Demo(arguments) => demo::run(arguments),

@@ -128,7 +128,11 @@ mod tests {
         let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).unwrap();
         let metadata = reader.metadata().file_metadata();
         assert_eq!(metadata.key_value_metadata().unwrap()[0].key, "physique");
-        let rows: Vec<_> = reader.into_iter().map(Result::unwrap).collect();
+        let rows: Vec<_> = reader
+            .get_row_iter(None)
+            .unwrap()
+            .map(Result::unwrap)
+            .collect();
         assert_eq!(rows.len(), 3);
         assert_eq!(rows[0].get_string(0).unwrap(), "größe.bvh");
         assert_eq!(rows[1].get_double(1).unwrap(), f64::MAX);

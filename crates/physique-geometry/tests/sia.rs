@@ -12,6 +12,7 @@ use physique_geometry::reference::{sia_counts, sia_volumes, winding_number};
 use physique_geometry::shapes::{cuboid, icosphere};
 use physique_geometry::sia::{POINTS_ASIDE, SiaCounter, UnitBall};
 use physique_geometry::{Error, Mesh, Triangles};
+use rayon::prelude::*;
 
 const CASES: [&str; 5] = ["single", "overlap2", "overlap3", "flipped", "flipped_plus"];
 
@@ -75,7 +76,8 @@ fn assert_near(found: f64, expected: f64) {
 
 #[test]
 fn the_published_rule_gives_the_golden_counts() {
-    for case in CASES {
+    // The slow rule takes seconds a mesh.
+    CASES.into_par_iter().for_each(|case| {
         let golden = Golden::load(case);
         let counts = sia_counts(&golden.triangles, &golden.positions).unwrap();
         assert_eq!(counts, golden.counts, "{case}");
@@ -83,7 +85,7 @@ fn the_published_rule_gives_the_golden_counts() {
         assert_near(volumes.self_intersection_cm3, golden.metric[0]);
         assert_near(volumes.volume_cm3, golden.metric[1]);
         assert_near(volumes.percent().unwrap(), golden.metric[2]);
-    }
+    });
 }
 
 /// The counter gives winding numbers; the published rule loses a point to a ray that grazes an edge.
@@ -119,12 +121,13 @@ fn every_count_in_the_ball_is_the_winding_number() {
         .counts(&golden.positions)
         .unwrap();
     // Every 11th point, to save time.
-    for number in (0..counts.len()).step_by(11) {
+    let numbers = (0..counts.len()).into_par_iter().step_by(11);
+    numbers.for_each(|number| {
         let in_ball = point(number).length_squared() <= 1.0;
         let winding = winding_number(&golden.triangles, &golden.positions, point(number)).unwrap();
         let expected = if in_ball { winding.round() as i32 } else { 0 };
         assert_eq!(counts[number], expected, "at {}", point(number));
-    }
+    });
 }
 
 #[test]

@@ -5,7 +5,7 @@ use divan::{Bencher, black_box};
 use physique::body::{Body, Sex, open_body};
 use physique::load::load_recording;
 use physique::motion::{FrameRate, Motion, embedded};
-use physique::{Protocol, ScoreOptions, Scorer};
+use physique::{Group, Protocol, ScoreOptions, Scorer};
 
 /// An hour at 30 frames a second.
 const HOUR: usize = 108_000;
@@ -14,13 +14,19 @@ fn main() {
     divan::main();
 }
 
-fn scorer(protocol: Protocol) -> Scorer {
-    let body = Body::mean(open_body().unwrap(), Sex::Neutral).unwrap();
-    let options = ScoreOptions {
-        protocol,
+fn by(protocol: Protocol) -> ScoreOptions {
+    ScoreOptions {
+        protocols: vec![protocol],
         ..ScoreOptions::default()
-    };
-    Scorer::new(body, options).unwrap()
+    }
+}
+
+/// Physique's own measures but self-intersection.
+fn without_self() -> ScoreOptions {
+    ScoreOptions {
+        groups: Group::ALL[1..].to_vec(),
+        ..ScoreOptions::default()
+    }
 }
 
 /// The embedded clips one after the other, again and again, for a number of frames.
@@ -45,8 +51,9 @@ fn motion(scorer: &Scorer, frames: usize) -> Motion {
     .unwrap()
 }
 
-fn score(bencher: Bencher<'_, '_>, protocol: Protocol, frames: usize) {
-    let scorer = scorer(protocol);
+fn score(bencher: Bencher<'_, '_>, options: ScoreOptions, frames: usize) {
+    let body = Body::mean(open_body().unwrap(), Sex::Neutral).unwrap();
+    let scorer = Scorer::new(body, options).unwrap();
     let motion = motion(&scorer, frames);
     bencher
         .counter(ItemsCount::new(frames))
@@ -55,15 +62,30 @@ fn score(bencher: Bencher<'_, '_>, protocol: Protocol, frames: usize) {
 
 #[divan::bench(sample_count = 20)]
 fn native_20_seconds(bencher: Bencher<'_, '_>) {
-    score(bencher, Protocol::Native, 600);
+    score(bencher, by(Protocol::Native), 600);
 }
 
 #[divan::bench(sample_count = 20)]
 fn sia_20_seconds(bencher: Bencher<'_, '_>) {
-    score(bencher, Protocol::Sia, 600);
+    score(bencher, by(Protocol::Sia), 600);
 }
 
 #[divan::bench(sample_count = 1, sample_size = 1)]
 fn native_hour(bencher: Bencher<'_, '_>) {
-    score(bencher, Protocol::Native, HOUR);
+    score(bencher, by(Protocol::Native), HOUR);
+}
+
+#[divan::bench(sample_count = 1, sample_size = 1)]
+fn native_hour_without_self_intersection(bencher: Bencher<'_, '_>) {
+    score(bencher, without_self(), HOUR);
+}
+
+/// The ten published protocols, which resample to 20, 30 and 60 fps.
+#[divan::bench(sample_count = 1, sample_size = 1)]
+fn published_protocols_hour(bencher: Bencher<'_, '_>) {
+    let options = ScoreOptions {
+        protocols: Protocol::ALL[2..].to_vec(),
+        ..ScoreOptions::default()
+    };
+    score(bencher, options, HOUR);
 }

@@ -9,7 +9,7 @@ use physique::{Error, MotionScore, Protocol, ScoreOptions, Scorer};
 fn scorer(protocol: Protocol) -> Scorer {
     let body = Body::mean(open_body_low().unwrap(), Sex::Neutral).unwrap();
     let options = ScoreOptions {
-        protocol,
+        protocols: vec![protocol],
         ..ScoreOptions::default()
     };
     Scorer::new(body, options).unwrap()
@@ -225,10 +225,11 @@ fn a_sunken_motion_scores_its_depth_and_loses_nothing_else() {
         here.rotations().to_vec(),
     )
     .unwrap();
-    let physics = |motion| scorer.score(motion).unwrap().physics.unwrap();
-    let (here, sunk) = (physics(&here), physics(&sunk));
-    assert!(here.ground.penetration_mean_cm < 1.0);
-    assert!(sunk.ground.penetration_mean_cm > 45.0);
-    let jerk = |score: &physique::PhysicsScore| score.smoothness.as_ref().unwrap().jerk_mean_m_s3;
+    let depth = |score: &MotionScore| score.ground.as_ref().unwrap().penetration_mean_cm;
+    let jerk = |score: &MotionScore| score.smoothness.as_ref().unwrap().jerk_mean_m_s3;
+    let score = |motion| scorer.score(motion).unwrap();
+    let (here, sunk) = (score(&here), score(&sunk));
+    assert!(depth(&here) < 1.0);
+    assert!(depth(&sunk) > 45.0);
     assert!((jerk(&here) - jerk(&sunk)).abs() < 1e-3 * jerk(&here));
 }

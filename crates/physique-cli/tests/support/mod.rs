@@ -61,3 +61,12 @@ pub fn write_bvh(path: &Path, name: &str) {
 pub fn at(folder: &tempfile::TempDir, name: &str) -> String {
     folder.path().join(name).display().to_string()
 }
+
+/// A folder with the embedded dance and walk as BVH.
+pub fn folder_of_clips() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["dance", "walk"] {
+        write_bvh(&folder.path().join(format!("{name}.bvh")), name);
+    }
+    folder
+}
