@@ -54,7 +54,7 @@ struct RunIdentity<'a> {
     head: &'a ReportHead,
     spacing_m: f32,
     series: bool,
-    frame_rate: Option<f64>,
+    read: String,
     mapping: Option<String>,
     job: &'a JobIdentity,
 }
@@ -81,7 +81,7 @@ fn score(
         head: &head,
         spacing_m: scorer.options().spacing_m,
         series: scorer.options().series,
-        frame_rate: arguments.read.frame_rate,
+        read: format!("{:?}", arguments.read),
         mapping: mapping.transpose()?,
         job: &job.identity,
     };

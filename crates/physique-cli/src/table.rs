@@ -83,7 +83,7 @@ fn native(motions: &[&MotionReport], groups: &[Group]) -> String {
     columns.extend(figures.iter().map(|(column, _)| column.clone()));
     let with_pair = groups.contains(&Group::SelfIntersection);
     if with_pair {
-        columns.push(Column::words(&["worst pair", "mean, cm³"]));
+        columns.push(Column::words(&["worst pair"]));
     }
     let rows = motions.iter().map(|motion| {
         let score = motion.score.as_ref();
@@ -101,8 +101,7 @@ fn native(motions: &[&MotionReport], groups: &[Group]) -> String {
     render(&columns, &rows.collect::<Vec<_>>())
 }
 
-/// The figures of a group that a table shows. Balance stays in the JSON until its figures on mapped
-/// walking are understood.
+/// The figures of a group that a table shows.
 fn figures(group: Group) -> Vec<Figure> {
     match group {
         Group::SelfIntersection => {
@@ -116,9 +115,6 @@ fn figures(group: Group) -> Vec<Figure> {
                         "{:.0}",
                         score.self_intersection.as_ref()?.worst_cm3
                     ))
-                }),
-                (number(["at", "s"]), |score| {
-                    Some(format!("{:.1}", score.self_intersection.as_ref()?.worst_s))
                 }),
             ]
         }
@@ -136,8 +132,10 @@ fn figures(group: Group) -> Vec<Figure> {
         Group::Feet => vec![(Column::number("feet", &["slide", "cm/s"]), |score| {
             Some(format!("{:.1}", score.feet.as_ref()?.slide_mean_cm_s))
         })],
-        Group::Balance => Vec::new(),
-        Group::Smoothness => vec![(Column::number("smooth", &["jerk", "m/s³"]), |score| {
+        Group::Balance => vec![(Column::number("balance", &["in base", "%"]), |score| {
+            Some(format!("{:.0}", score.balance.as_ref()?.stable_percent?))
+        })],
+        Group::Smoothness => vec![(Column::number("", &["jerk", "m/s³"]), |score| {
             Some(format!("{:.0}", score.smoothness.as_ref()?.jerk_mean_m_s3))
         })],
     }
@@ -147,7 +145,7 @@ fn or_dash(cell: Option<String>) -> String {
     cell.unwrap_or_else(|| "–".to_owned())
 }
 
-/// Names of the parts with L and R for left and right, and their volume.
+/// Names of the parts, with L and R for left and right.
 fn worst_pair(score: &MotionScore) -> String {
     let pairs = score.self_intersection.as_ref().map(|found| &found.pairs);
     let worst = pairs.and_then(|pairs| pairs.iter().find(|pair| !pair.crease));
@@ -156,7 +154,7 @@ fn worst_pair(score: &MotionScore) -> String {
             let part: &str = &pair.parts[index];
             part.replace("left ", "L ").replace("right ", "R ")
         });
-        format!("{one} – {other} {:.1}", pair.mean_cm3)
+        format!("{one} – {other}")
     })
 }
 
