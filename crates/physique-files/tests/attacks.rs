@@ -1,17 +1,25 @@
 //! Hostile files: what each must come to, in little memory and time, with nothing run.
+//!
+//! `PHYSIQUE_WRITE_SAFETY=1 cargo test -p physique-files --test attacks` writes the table in
+//! `docs/safety.md`.
 
 #![allow(clippy::unwrap_used)]
 
-use std::alloc::{GlobalAlloc, Layout, System};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
 use physique_files::npz::{ArrayError, ArrayLimits};
 use physique_files::pickle::{Pickle, PickleError, PickleLimits};
 use physique_files::{Error, named_arrays};
+
+#[path = "../../../attacks/support/memory.rs"]
+mod memory;
+#[path = "../../../attacks/support/table.rs"]
+mod table;
+
+use table::Row;
 
 const ATTACKS: &str = "../../attacks";
 const TRACE: &str = "physique_was_here";
@@ -159,7 +167,9 @@ fn every_attack_comes_to_nothing() {
     let listed: BTreeSet<String> = EXPECTED.iter().map(|(name, _)| (*name).into()).collect();
     let there: BTreeSet<String> = fs::read_dir(ATTACKS)
         .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .map(|entry| entry.unwrap())
+        .filter(|entry| entry.file_type().unwrap().is_file())
+        .map(|entry| entry.file_name().into_string().unwrap())
         .filter(|name| !name.ends_with(".py") && !name.ends_with(".md"))
         .collect();
     assert_eq!(
@@ -175,7 +185,7 @@ fn every_attack_comes_to_nothing() {
         bytes: LIMIT,
         ..PickleLimits::default()
     };
-    println!("| file | bytes | what happened | peak memory | time |\n|---|--:|---|--:|--:|");
+    let mut rows = Vec::new();
     let mut wrong = Vec::new();
     for &(name, outcome) in EXPECTED {
         let bytes = fs::read(Path::new(ATTACKS).join(name)).unwrap();
@@ -187,61 +197,28 @@ fn every_attack_comes_to_nothing() {
             Ok(arrays) => format!("read as data, {arrays} arrays"),
             Err(error) => error.to_string().chars().take(160).collect(),
         };
-        println!(
-            "| {name} | {length} | {text} | {} kB | {time:.1?} |",
-            peak / 1000
-        );
         if !matches(outcome, &found) || peak > LARGEST_PEAK || time > LONGEST {
             wrong.push(format!(
                 "{name}: expected {outcome:?}, found {text}, {peak} bytes, {time:?}"
             ));
         }
+        let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+        rows.push(Row {
+            file: name.into(),
+            bytes: length,
+            tried: stem.replace('_', " "),
+            happened: text,
+            peak,
+            time,
+        });
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    table::write_or_compare("attacks on arrays and pickles", &rows);
     for folder in [".", "..", "../..", ATTACKS] {
         assert!(!Path::new(folder).join(TRACE).exists(), "something was run");
         assert!(
             !Path::new(folder).join(format!("{TRACE}.npy")).exists(),
             "something was written"
         );
-    }
-}
-
-/// Counts the bytes that are held; this test is alone in its process.
-mod memory {
-    use super::{AtomicUsize, GlobalAlloc, Layout, Relaxed, System};
-
-    static HELD: AtomicUsize = AtomicUsize::new(0);
-    static PEAK: AtomicUsize = AtomicUsize::new(0);
-
-    struct Counting;
-
-    #[global_allocator]
-    static COUNTING: Counting = Counting;
-
-    pub(super) fn start() -> usize {
-        let held = HELD.load(Relaxed);
-        PEAK.store(held, Relaxed);
-        held
-    }
-
-    pub(super) fn peak() -> usize {
-        PEAK.load(Relaxed)
-    }
-
-    // SAFETY: every call goes on to the system's allocator unchanged.
-    unsafe impl GlobalAlloc for Counting {
-        unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-            let held = HELD.fetch_add(layout.size(), Relaxed) + layout.size();
-            PEAK.fetch_max(held, Relaxed);
-            // SAFETY: the caller keeps the contract of `alloc`.
-            unsafe { System.alloc(layout) }
-        }
-
-        unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-            HELD.fetch_sub(layout.size(), Relaxed);
-            // SAFETY: the caller keeps the contract of `dealloc`.
-            unsafe { System.dealloc(pointer, layout) }
-        }
     }
 }

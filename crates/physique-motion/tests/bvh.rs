@@ -246,7 +246,7 @@ fn mistakes_are_named_with_their_place() {
         ),
         (
             SMALL.replace("OFFSET 0 50 0", "OFFSET 0 1e300 0"),
-            vec!["line 8", "1e38"],
+            vec!["line 8", "1e30"],
         ),
         (SMALL.replace("ROOT Hips", "ROOT"), vec!["name"]),
         ("<html>".to_owned(), vec!["line 1", "HIERARCHY", "<html>"]),

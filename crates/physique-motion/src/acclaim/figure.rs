@@ -6,6 +6,7 @@ use std::path::Path;
 use glam::{DQuat, DVec3};
 
 use super::channel::Channel;
+use super::text::key;
 use crate::limits::check;
 use crate::{Error, Limits};
 
@@ -42,23 +43,23 @@ impl Figure {
         ends
     }
 
-    /// Indices by name in lower case.
-    pub(super) fn by_name(&self) -> HashMap<Vec<u8>, usize> {
+    /// Indices by [`key`] of their name.
+    pub(super) fn by_name(&self) -> HashMap<String, usize> {
         let bones = self.bones.iter().enumerate();
         bones
-            .map(|(index, bone)| (bone.name.to_ascii_lowercase().into_bytes(), index))
+            .map(|(index, bone)| (key(bone.name.as_bytes()), index))
             .collect()
     }
 }
 
 /// Puts every bone after its parent; `drafts` has the root first. `edges` are names of parents and
-/// children, in lower case.
+/// children, as [`key`].
 ///
 /// # Errors
 /// [`Error::Format`] unless all bones hang below the root, each on one parent; [`Error::Limit`].
 pub(super) fn in_order(
     mut drafts: Vec<Bone>,
-    edges: &[(Vec<u8>, Vec<u8>)],
+    edges: &[(String, String)],
     path: &Path,
     limits: &Limits,
 ) -> Result<Vec<Bone>, Error> {
@@ -70,8 +71,7 @@ pub(super) fn in_order(
     };
     let mut by_name = HashMap::new();
     for (index, bone) in drafts.iter().enumerate() {
-        let name = bone.name.to_ascii_lowercase().into_bytes();
-        if by_name.insert(name, index).is_some() {
+        if by_name.insert(key(bone.name.as_bytes()), index).is_some() {
             let expected = "every bone once";
             return Err(error(":bonedata", expected, format!("{} twice", bone.name)));
         }
@@ -80,10 +80,14 @@ pub(super) fn in_order(
     let mut has_parent = vec![false; drafts.len()];
     has_parent[0] = true;
     for (parent, child) in edges {
-        let find = |name: &Vec<u8>| {
+        let find = |name: &String| {
             by_name.get(name).copied().ok_or_else(|| {
-                let name = String::from_utf8_lossy(&name[..name.len().min(40)]).into_owned();
-                error(":hierarchy", "names of bones", format!("\"{name}\""))
+                let name: String = name.chars().take(40).collect();
+                error(
+                    ":hierarchy",
+                    "names of bones",
+                    format!("\"{}\"", name.escape_debug()),
+                )
             })
         };
         let (parent, child) = (find(parent)?, find(child)?);

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3, Quat};
 
 use super::channel::{Channel, turns};
 use super::figure::{Bone, Figure};
-use super::text::{Line, lines};
+use super::text::{Line, key, lines};
 use crate::limits::check;
 use crate::{Error, Limits};
 
@@ -110,7 +110,7 @@ impl Row {
 
 struct Reader<'a> {
     figure: &'a Figure,
-    by_name: HashMap<Vec<u8>, usize>,
+    by_name: HashMap<String, usize>,
     in_degrees: bool,
     fully_specified: bool,
     /// Of the frame being read.
@@ -208,7 +208,7 @@ impl Reader<'_> {
         let usual = self.usual_order.get(self.lines_in_frame).copied();
         let is_it = |&bone: &usize| self.figure.bones[bone].name.as_bytes() == name;
         usual.filter(is_it).or_else(|| {
-            let found = self.by_name.get(&name.to_ascii_lowercase()).copied();
+            let found = self.by_name.get(&key(name)).copied();
             if self.motion.rotations.is_empty() {
                 self.usual_order.extend(found);
             }

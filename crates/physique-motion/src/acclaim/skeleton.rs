@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::channel::{Channel, axis, turns};
 use super::figure::{Bone, Figure, in_order};
-use super::text::{Line, Words, lines};
+use super::text::{Line, Words, key, lines};
 use crate::limits::check;
 use crate::{Error, Limits};
 
@@ -28,8 +28,8 @@ struct Draft {
     root_axes: [usize; 3],
     bones: Vec<Bone>,
     open: Option<OpenBone>,
-    /// Parent's and child's name, and where they stand.
-    edges: Vec<(Vec<u8>, Vec<u8>)>,
+    /// Parents' and children's names.
+    edges: Vec<(String, String)>,
 }
 
 /// A bone between `begin` and `end`.
@@ -177,7 +177,7 @@ impl Draft {
     }
 
     fn edges(&mut self, line: &Line<'_>, path: &Path, limits: &Limits) -> Result<(), Error> {
-        let mut words = line.words().map(<[u8]>::to_ascii_lowercase);
+        let mut words = line.words().map(key);
         let parent = words.next().unwrap_or_default();
         let before = self.edges.len();
         for child in words {
@@ -185,7 +185,7 @@ impl Draft {
             check(path, "the number of joints", edges, limits.joints as u64)?;
             self.edges.push((parent.clone(), child));
         }
-        if self.edges.len() == before && !matches!(parent.as_slice(), b"begin" | b"end") {
+        if self.edges.len() == before && !matches!(&*parent, "begin" | "end") {
             return Err(line.error("a bone and its children", Some(line.text)));
         }
         Ok(())

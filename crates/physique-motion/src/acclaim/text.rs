@@ -59,6 +59,11 @@ impl<'a> Line<'a> {
     }
 }
 
+/// A name as it is looked up: letter case does not matter, nor what is no text.
+pub(super) fn key(name: &[u8]) -> String {
+    String::from_utf8_lossy(name).to_ascii_lowercase()
+}
+
 /// The words of a line.
 pub(super) struct Words<'a> {
     line: Line<'a>,

@@ -100,8 +100,13 @@ pub(super) fn read(context: &Context<'_>, array: &Array) -> Result<Vec<Part>, Er
     Ok(motions.collect())
 }
 
-/// All numbers of an array.
+/// All numbers of an array, which must hold some: any number of motions without frames would fit
+/// into an empty one.
 pub(super) fn numbers(context: &Context<'_>, array: &Array) -> Result<Vec<f32>, Error> {
+    if array.shape().contains(&0) {
+        let found = format!("{:?}", array.shape());
+        return Err(context.format("the shape", "at least one frame", found));
+    }
     array.to_f32().map_err(|source| Error::Array {
         path: context.path.into(),
         source,

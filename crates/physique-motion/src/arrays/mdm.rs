@@ -36,10 +36,10 @@ pub(super) fn read(context: &Context<'_>, data: &Data) -> Result<Vec<Part>, Erro
         let expected = "[motions][22][3][frames], [motions][21][3][frames] or features";
         return Err(context.format("`motion`", expected, format!("{:?}", array.shape())));
     };
+    let values = joints::numbers(context, array)?;
     let motions = axes.motions.unwrap_or(1);
     let lengths = lengths(context, data, motions, axes.frames)?;
     let texts = texts(data, motions);
-    let values = joints::numbers(context, array)?;
     let parts = lengths.into_iter().zip(texts).enumerate();
     let parts = parts.map(|(index, (frames, text))| Part {
         key: axes.motions.map_or(String::new(), |_| index.to_string()),

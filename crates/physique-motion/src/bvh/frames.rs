@@ -1,7 +1,7 @@
 //! The `MOTION` section: frame count, frame time, numbers.
 
 use super::{
-    hierarchy::BvhJoint,
+    hierarchy::{BvhJoint, LARGEST},
     text::{Text, format_error, is_comment},
 };
 use crate::frame_rate::customary_rate;
@@ -105,13 +105,13 @@ fn numbers(
                 .ok()
                 .and_then(|word| word.parse().ok());
             match number {
-                Some(number) if f32::is_finite(number) => values.push(number),
+                Some(number) if f32::abs(number) < LARGEST => values.push(number),
                 _ => {
                     let place = place(Some(column));
                     return Err(format_error(
                         text.path(),
                         place,
-                        "a finite number",
+                        "a finite number below 1e30",
                         Some(word),
                     ));
                 }

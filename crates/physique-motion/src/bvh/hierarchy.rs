@@ -36,6 +36,9 @@ enum Block {
     EndSite(usize),
 }
 
+/// Below this, numbers stay finite in 32 bits however many joints add up.
+pub(super) const LARGEST: f32 = 1e30;
+
 /// No exporter writes more channels than three positions and a few rotations.
 const MOST_CHANNELS: u64 = 12;
 
@@ -117,10 +120,10 @@ pub(super) fn parse(text: &mut Text<'_>, limits: &Limits) -> Result<Vec<BvhJoint
 fn vector(text: &mut Text<'_>) -> Result<Vec3, Error> {
     let mut number = || text.number("three finite numbers after OFFSET");
     let offset = Vec3::new(number()? as f32, number()? as f32, number()? as f32);
-    if offset.is_finite() {
+    if offset.abs().max_element() < LARGEST {
         Ok(offset)
     } else {
-        Err(text.error("an offset below 1e38", Some(b"a larger one")))
+        Err(text.error("an offset below 1e30", Some(b"a larger one")))
     }
 }
 

@@ -255,7 +255,8 @@ impl Timing {
         let span: f64 = lasting.sum();
         Some(Self {
             step,
-            resampled_frames: (!is_constant).then(|| (span / step + 1e-6).floor() as u64 + 1),
+            resampled_frames: (!is_constant)
+                .then(|| ((span / step + 1e-6).floor() as u64).saturating_add(1)),
         })
     }
 }

@@ -101,7 +101,7 @@ fn beside(uri: &str, place: &str, context: &Context<'_>) -> Result<PathBuf, Erro
     };
     let real = file.canonicalize().map_err(io)?;
     if real.starts_with(folder.canonicalize().map_err(io)?) {
-        Ok(real)
+        Ok(file)
     } else {
         Err(escape())
     }
