@@ -9,12 +9,12 @@ use crate::pickle::PickleError;
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// The operating system refused.
-    #[error("{path}: {source}")]
+    #[error("{path}: {problem}")]
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
+        /// What the system said. Part of the message, so not told again as its source.
+        problem: std::io::Error,
     },
     /// A file that is larger than the limit.
     #[error(

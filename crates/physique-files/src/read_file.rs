@@ -9,9 +9,9 @@ use crate::FileError;
 /// # Errors
 /// [`FileError::Io`]; [`FileError::TooLarge`], before anything is read where the system knows the length.
 pub fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
-    let io = |source| FileError::Io {
+    let io = |problem| FileError::Io {
         path: path.into(),
-        source,
+        problem,
     };
     let file = File::open(path).map_err(io)?;
     let mut found = file.metadata().map_err(io)?.len();

@@ -12,9 +12,9 @@ use crate::FileError;
 /// # Errors
 /// [`FileError::Io`] with the path that failed.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    let io = |source| FileError::Io {
+    let io = |problem| FileError::Io {
         path: path.into(),
-        source,
+        problem,
     };
     let mut beside = path.as_os_str().to_owned();
     beside.push(format!(".{}.partial", std::process::id()));

@@ -104,13 +104,13 @@ pub(crate) fn from_bytes(
         ..PickleLimits::default()
     };
     let data = Data::read(bytes, &arrays, &pickles).map_err(|error| match error {
-        DataError::Array(source) => Error::Array {
+        DataError::Array(problem) => Error::Array {
             path: path.into(),
-            source,
+            problem,
         },
-        source => Error::Data {
+        problem => Error::Data {
             path: path.into(),
-            source,
+            problem,
         },
     })?;
     match &data {

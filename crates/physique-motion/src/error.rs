@@ -9,12 +9,12 @@ use physique_files::FileError;
 #[non_exhaustive]
 pub enum Error {
     /// The operating system refused.
-    #[error("{path}: {source}")]
+    #[error("{path}: {problem}")]
     Io {
         /// The file.
         path: PathBuf,
         /// What the system said.
-        source: std::io::Error,
+        problem: std::io::Error,
     },
     /// A frame rate that is not a positive number.
     #[error("The frame rate must be a positive number of frames a second, found {found}.")]
@@ -135,20 +135,20 @@ pub enum Error {
         found: usize,
     },
     /// A pickle or PyTorch file that is broken, or that holds more than data.
-    #[error("{path}: {source}")]
+    #[error("{path}: {problem}")]
     Data {
         /// The file.
         path: PathBuf,
         /// What is wrong with it.
-        source: physique_files::Error,
+        problem: physique_files::Error,
     },
     /// An array of a file is broken or missing.
-    #[error("{path}: {source}")]
+    #[error("{path}: {problem}")]
     Array {
         /// The file.
         path: PathBuf,
         /// What is wrong with it.
-        source: crate::npz::ArrayError,
+        problem: crate::npz::ArrayError,
     },
     /// A skeleton in which no body was found.
     #[error("No human body was found in the skeleton: {problem}.")]
@@ -234,7 +234,7 @@ impl From<FileError> for Error {
                 found,
                 limit,
             },
-            FileError::Io { path, source } => Self::Io { path, source },
+            FileError::Io { path, problem } => Self::Io { path, problem },
         }
     }
 }

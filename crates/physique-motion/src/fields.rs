@@ -98,9 +98,9 @@ impl<'a> Fields<'a> {
     /// [`Error::Array`] where it is missing or broken; [`Error::Format`] for other values.
     pub(crate) fn array(&mut self, key: &str) -> Result<Array, Error> {
         let path = self.path;
-        let broken = |source| Error::Array {
+        let broken = |problem| Error::Array {
             path: path.into(),
-            source,
+            problem,
         };
         match &mut self.source {
             Source::Archive(archive) => archive.array(key).map_err(broken),
@@ -177,7 +177,7 @@ impl<'a> Fields<'a> {
                 Ok((Some(inner.unwrap_or(&text).to_owned()), None))
             }
             Err(Error::Array {
-                source: source @ (ArrayError::ElementType { .. } | ArrayError::Content { .. }),
+                problem: source @ (ArrayError::ElementType { .. } | ArrayError::Content { .. }),
                 ..
             }) => Ok((None, Some(format!("`{key}` was left out. {source}")))),
             Err(Error::Format { found, .. }) => {
@@ -262,10 +262,10 @@ impl<'a> Fields<'a> {
         }
     }
 
-    fn broken(&self, source: ArrayError) -> Error {
+    fn broken(&self, problem: ArrayError) -> Error {
         Error::Array {
             path: self.path.into(),
-            source,
+            problem,
         }
     }
 }

@@ -55,9 +55,9 @@ const SPACES: [(&str, ShapeSpace); 3] = [
 /// [`Error::Io`], and [`Error::Array`] for a motion that outgrows the ZIP format.
 pub fn write(path: impl AsRef<Path>, recording: &Recording) -> Result<(), Error> {
     let path = path.as_ref();
-    let bytes = to_npz(recording).map_err(|source| Error::Array {
+    let bytes = to_npz(recording).map_err(|problem| Error::Array {
         path: path.into(),
-        source,
+        problem,
     })?;
     write_file(path, &bytes)
 }

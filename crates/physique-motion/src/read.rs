@@ -172,9 +172,9 @@ pub fn parse_motion(
 
 fn parse_parts(bytes: Vec<u8>, path: &Path, options: &ReadOptions) -> Result<Vec<Part>, Error> {
     let unpacked = physique_files::unpacked(bytes, options.limits.bytes);
-    let bytes = unpacked.map_err(|source| Error::Data {
+    let bytes = unpacked.map_err(|problem| Error::Data {
         path: path.into(),
-        source,
+        problem,
     })?;
     match Content::of(&bytes) {
         Content::Npz => arrays::from_npz(bytes, path, options),
@@ -272,9 +272,9 @@ pub(crate) fn open_archive(
         bytes: options.limits.bytes,
         ..ArrayLimits::default()
     };
-    Archive::open(bytes, limits).map_err(|source| Error::Array {
+    Archive::open(bytes, limits).map_err(|problem| Error::Array {
         path: path.into(),
-        source,
+        problem,
     })
 }
 

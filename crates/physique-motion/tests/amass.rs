@@ -21,9 +21,9 @@ fn open(bytes: &[u8]) -> Archive {
 
 fn read(bytes: &[u8], options: &ReadOptions) -> Result<Recording, Error> {
     let archive = Archive::open(bytes.to_vec(), ArrayLimits::default());
-    let mut archive = archive.map_err(|source| Error::Array {
+    let mut archive = archive.map_err(|problem| Error::Array {
         path: "walk.npz".into(),
-        source,
+        problem,
     })?;
     amass::from_archive(&mut archive, "walk.npz", options)
 }

@@ -11,9 +11,9 @@ use proptest::prelude::*;
 
 fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Recording, Error> {
     let archive = Archive::open(bytes.to_vec(), ArrayLimits::default());
-    let mut archive = archive.map_err(|source| Error::Array {
+    let mut archive = archive.map_err(|problem| Error::Array {
         path: "walk.npz".into(),
-        source,
+        problem,
     })?;
     native::from_archive(&mut archive, "walk.npz", options)
 }

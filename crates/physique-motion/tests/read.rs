@@ -134,3 +134,13 @@ fn files_on_disk_keep_the_limit_on_bytes() {
         Err(Error::Io { .. })
     ));
 }
+
+#[test]
+fn the_cause_of_an_error_is_told_once() {
+    let missing = read_motion("no/such/file.bvh", &ReadOptions::default()).unwrap_err();
+    assert!(missing.to_string().contains("os error"), "{missing}");
+    // A report of the whole chain would say it again.
+    assert!(std::error::Error::source(&missing).is_none());
+    let broken = parse(b"PK\x03\x04 and no more".to_vec()).unwrap_err();
+    assert!(std::error::Error::source(&broken).is_none(), "{broken}");
+}

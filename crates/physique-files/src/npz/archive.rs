@@ -23,8 +23,8 @@ impl Archive {
     /// # Errors
     /// [`ArrayError::Archive`] for anything but a ZIP file, [`ArrayError::Entries`] for too many.
     pub fn open(bytes: Vec<u8>, limits: ArrayLimits) -> Result<Self, ArrayError> {
-        let zip =
-            ZipArchive::new(Cursor::new(bytes)).map_err(|source| ArrayError::Archive { source })?;
+        let zip = ZipArchive::new(Cursor::new(bytes))
+            .map_err(|problem| ArrayError::Archive { problem })?;
         if zip.len() > limits.entries {
             return Err(ArrayError::Entries {
                 found: zip.len(),

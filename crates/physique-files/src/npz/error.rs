@@ -5,10 +5,10 @@
 #[non_exhaustive]
 pub enum ArrayError {
     /// The bytes are no ZIP archive, or a broken one.
-    #[error("The archive cannot be opened: expected a ZIP file of arrays, found {source}.")]
+    #[error("The archive cannot be opened: expected a ZIP file of arrays, found {problem}.")]
     Archive {
         /// What the ZIP reader said.
-        source: zip::result::ZipError,
+        problem: zip::result::ZipError,
     },
     /// More entries than [`super::ArrayLimits::entries`].
     #[error("The archive holds {found} entries, above the limit of {limit}.")]

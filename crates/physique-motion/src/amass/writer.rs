@@ -36,9 +36,9 @@ pub fn write(
     rest_pelvis: Option<Vec3>,
 ) -> Result<Vec<String>, Error> {
     let path = path.as_ref();
-    let file = to_npz(motion, rest_pelvis).map_err(|source| Error::Array {
+    let file = to_npz(motion, rest_pelvis).map_err(|problem| Error::Array {
         path: path.into(),
-        source,
+        problem,
     })?;
     write_file(path, &file.bytes)?;
     Ok(file.notes)

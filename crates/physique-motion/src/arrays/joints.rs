@@ -107,9 +107,9 @@ pub(super) fn numbers(context: &Context<'_>, array: &Array) -> Result<Vec<f32>, 
         let found = format!("{:?}", array.shape());
         return Err(context.format("the shape", "at least one frame", found));
     }
-    array.to_f32().map_err(|source| Error::Array {
+    array.to_f32().map_err(|problem| Error::Array {
         path: context.path.into(),
-        source,
+        problem,
     })
 }
 

@@ -56,9 +56,9 @@ pub fn parse(
     options: &ReadOptions,
 ) -> Result<JointFile, Error> {
     let path = path.as_ref();
-    let array_error = |source| Error::Array {
+    let array_error = |problem| Error::Array {
         path: path.into(),
-        source,
+        problem,
     };
     let format = |place: &str, expected: &str, found: String| Error::Format {
         path: path.into(),
@@ -139,9 +139,9 @@ pub fn write_positions(path: impl AsRef<Path>, motion: &JointPositions) -> Resul
 }
 
 fn write(path: &Path, bytes: Result<Vec<u8>, ArrayError>) -> Result<(), Error> {
-    let bytes = bytes.map_err(|source| Error::Array {
+    let bytes = bytes.map_err(|problem| Error::Array {
         path: path.into(),
-        source,
+        problem,
     })?;
     write_file(path, &bytes)
 }

@@ -155,9 +155,9 @@ fn numbers(path: &Path, limits: &Limits) -> Result<Vec<f32>, Error> {
     let bytes = read_file(path, limits.bytes)?;
     let array = Array::from_npy("array", bytes, &array_limits);
     let numbers = array.and_then(|array| array.to_f32());
-    numbers.map_err(|source| Error::Array {
+    numbers.map_err(|problem| Error::Array {
         path: path.into(),
-        source,
+        problem,
     })
 }
 

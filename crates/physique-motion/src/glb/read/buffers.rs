@@ -95,9 +95,9 @@ fn beside(uri: &str, place: &str, context: &Context<'_>) -> Result<PathBuf, Erro
         _ => Path::new("."),
     };
     let file = folder.join(relative);
-    let io = |source| Error::Io {
+    let io = |problem| Error::Io {
         path: file.clone(),
-        source,
+        problem,
     };
     let real = file.canonicalize().map_err(io)?;
     if real.starts_with(folder.canonicalize().map_err(io)?) {
