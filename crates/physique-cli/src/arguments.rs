@@ -57,6 +57,9 @@ pub(crate) struct ReadArguments {
     /// Axis that points up in the files, where they do not say.
     #[arg(long, value_enum, value_name = "AXIS")]
     pub(crate) up_axis: Option<UpAxisName>,
+    /// Skeleton (`.asf`) of Acclaim motions (`.amc`), where none of their name lies beside them.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) skeleton: Option<PathBuf>,
     /// Mean of the data set (`Mean.npy`), for features that are normalised.
     #[arg(long, value_name = "FILE", requires = "std")]
     pub(crate) mean: Option<PathBuf>,

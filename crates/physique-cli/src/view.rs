@@ -58,6 +58,7 @@ pub(crate) fn load_options(arguments: &ReadArguments) -> Result<LoadOptions> {
         read: ReadOptions {
             limits,
             frame_rate,
+            skeleton: arguments.skeleton.clone(),
             up_axis: arguments.up_axis.map(|name| match name {
                 UpAxisName::Y => UpAxis::Y,
                 UpAxisName::Z => UpAxis::Z,
