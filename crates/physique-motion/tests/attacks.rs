@@ -23,8 +23,8 @@ use table::Row;
 
 const ATTACKS: &str = "../../attacks/motion";
 const LIMIT: u64 = 32 << 20;
-/// The file, what is read from it, and what a list holds while it grows.
-const LARGEST_PEAK: usize = 3 * LIMIT as usize;
+/// Beside the file itself.
+const LARGEST_PEAK: usize = LIMIT as usize;
 const LONGEST: Duration = Duration::from_secs(10);
 
 /// What a file tries, and what must happen: a word of its error, or nothing where it is harmless.

@@ -6,7 +6,7 @@ use base64::Engine as _;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
 use super::Context;
-use super::document::{Buffer, Document};
+use super::document::{Buffer, Document, Uri};
 use crate::Error;
 use crate::read_file::read_file;
 
@@ -36,7 +36,7 @@ impl<'a> Buffers<'a> {
             let found = format!("{} of them", self.declared.len());
             return Err(context.format(place, "a buffer of this number", found));
         };
-        if let (Some(uri), None) = (&buffer.uri, &self.loaded[index]) {
+        if let (Some(Uri(uri)), None) = (&buffer.uri, &self.loaded[index]) {
             let left = context.options.limits.bytes.saturating_sub(self.total);
             let bytes = load(uri, &place, left, context)?;
             self.total += bytes.len() as u64;

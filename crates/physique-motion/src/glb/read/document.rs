@@ -153,9 +153,15 @@ pub(super) struct BufferView {
 #[serde(rename_all = "camelCase")]
 pub(super) struct Buffer<'a> {
     #[serde(borrow)]
-    pub(super) uri: Option<Cow<'a, str>>,
+    pub(super) uri: Option<Uri<'a>>,
     pub(super) byte_length: usize,
 }
+
+/// Text that stays where it is in the file unless it is escaped; serde would copy a bare
+/// `Option<Cow<str>>`, and with it megabytes of base64.
+#[derive(Deserialize)]
+#[serde(transparent)]
+pub(super) struct Uri<'a>(#[serde(borrow)] pub(super) Cow<'a, str>);
 
 impl<'a> Document<'a> {
     /// Parses the JSON. What it may allocate is bounded by its punctuation beforehand; serde_json
