@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::body_choice::BodyArguments;
 use crate::convert::arguments::ConvertArguments;
+use crate::inspect::arguments::InspectArguments;
 use crate::scan::arguments::ScanArguments;
 use crate::score::arguments::ScoreArguments;
 
@@ -36,6 +37,8 @@ pub(crate) enum Verb {
     Scan(Box<ScanArguments>),
     /// Draw a motion on a body: a contact sheet over time, intersections in red.
     View(ViewArguments),
+    /// Tell what files hold: skeleton, rate, units, range of motion, movement, and what looks wrong.
+    Inspect(Box<InspectArguments>),
     /// Bring motions to the body and write them in any format: BVH, AMASS, GLB, HumanML3D, KIT, CSV.
     Convert(ConvertArguments),
     /// Score embedded clips of real motion and draw them, to see what Physique does.

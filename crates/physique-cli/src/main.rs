@@ -7,6 +7,7 @@ mod convert;
 mod demo;
 mod exit;
 mod files;
+mod inspect;
 mod journal;
 mod names;
 mod parquet;
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         Verb::Score(arguments) => score::run(arguments),
         Verb::Scan(arguments) => scan::run(arguments),
         Verb::View(arguments) => view::run(arguments),
+        Verb::Inspect(arguments) => inspect::run(arguments),
         Verb::Convert(arguments) => convert::run(arguments),
         Verb::Demo(arguments) => demo::run(arguments),
         Verb::Completions { shell } => {
