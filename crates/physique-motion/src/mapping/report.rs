@@ -80,8 +80,8 @@ impl MappingReport {
         notes.extend(outcome.notes.iter().cloned());
         if dropped_frames > 0 {
             notes.push(format!(
-                "dropped {dropped_frames} frames at the start: a T-pose that is no part of the \
-                 motion, and the way out of it"
+                "dropped {dropped_frames} frames at the start: a T-pose, or arms held as in one, \
+                 that is no part of the motion, and the way out of it"
             ));
         }
         let without: Vec<&str> = joints

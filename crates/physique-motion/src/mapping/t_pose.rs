@@ -1,5 +1,7 @@
 //! A T-pose put before the motion for the sake of importers.
 
+use glam::Vec3;
+
 use super::{
     axes::degrees_between,
     figure::{Arms, Figure},
@@ -18,6 +20,14 @@ const LOOKED_AT: usize = 64;
 /// The 43-joint files of CMU's dances begin so; a smoothing filter of their converter spread the
 /// jump over the first eight frames.
 pub(super) fn leading_frames(clip: &SkeletonClip, human: &HumanJoints) -> usize {
+    match frames_of_whole_pose(clip, human) {
+        0 => frames_of_held_arms(clip, human),
+        frames => frames,
+    }
+}
+
+/// A person in T-pose who rushes out of it.
+fn frames_of_whole_pose(clip: &SkeletonClip, human: &HumanJoints) -> usize {
     let poses: Vec<SkeletonPose> = (0..clip.frame_count().min(LOOKED_AT))
         .map(|frame| clip.pose(frame))
         .collect();
@@ -50,19 +60,64 @@ pub(super) fn leading_frames(clip: &SkeletonClip, human: &HumanJoints) -> usize 
         .unwrap_or(longest_way_out.max(1))
 }
 
+/// Arms that keep a T-pose to a fraction of a degree while the legs already move, and drop out of
+/// it at once: a converter that had no arms for these frames. CMU 03_02 for iClone begins so.
+fn frames_of_held_arms(clip: &SkeletonClip, human: &HumanJoints) -> usize {
+    const LEVEL_DEGREES: f32 = 10.0;
+    /// No living arm keeps so still, in degrees a frame.
+    const STILL_DEGREES: f32 = 0.3;
+    /// The drop: degrees within so many frames.
+    const DROP_DEGREES: f32 = 30.0;
+    const DROP_FRAMES: usize = 4;
+    let level = |pose: &SkeletonPose| {
+        let [left, right] = human.shoulders().map(|shoulder| pose.positions[shoulder]);
+        arm_bones(human).all(|(is_left, from, to)| {
+            let outward = if is_left { left - right } else { right - left };
+            degrees_between(outward, pose.positions[to] - pose.positions[from]) < LEVEL_DEGREES
+        })
+    };
+    let frames = clip.frame_count();
+    let mut before = clip.pose(0);
+    let mut held = 0;
+    while held < frames && level(&before) {
+        held += 1;
+        if held == frames {
+            return 0;
+        }
+        let after = clip.pose(held);
+        if largest_turn(human, &before, &after) > STILL_DEGREES {
+            break;
+        }
+        before = after;
+    }
+    // One level frame is a dancer's.
+    if held < 2 {
+        return 0;
+    }
+    let dropped = (held..frames.min(held + DROP_FRAMES))
+        .find(|&frame| largest_turn(human, &before, &clip.pose(frame)) > DROP_DEGREES);
+    dropped.unwrap_or(0)
+}
+
+/// Bones of both arms: whether of the left, upper and lower joint.
+fn arm_bones(human: &HumanJoints) -> impl Iterator<Item = (bool, usize, usize)> {
+    let sides = [(true, human.left), (false, human.right)];
+    sides.into_iter().flat_map(|(is_left, limbs)| {
+        let upper = (is_left, limbs.shoulder, limbs.elbow);
+        let fore = limbs.wrist.map(|wrist| (is_left, limbs.elbow, wrist));
+        [Some(upper), fore].into_iter().flatten()
+    })
+}
+
 /// Largest turn of an arm bone against the trunk between two poses, in degrees.
 fn largest_turn(human: &HumanJoints, before: &SkeletonPose, after: &SkeletonPose) -> f32 {
     let chest = human.chest();
-    let mut largest = 0.0f32;
-    for limbs in human.sides() {
-        let bones = [(limbs.shoulder, limbs.elbow)].into_iter();
-        for (from, to) in bones.chain(limbs.wrist.map(|wrist| (limbs.elbow, wrist))) {
-            let seen = |pose: &SkeletonPose| {
-                let bone = pose.positions[to] - pose.positions[from];
-                pose.rotations[chest].inverse() * bone
-            };
-            largest = largest.max(degrees_between(seen(before), seen(after)));
-        }
-    }
-    largest
+    let turns = arm_bones(human).map(|(_, from, to)| {
+        let seen = |pose: &SkeletonPose| -> Vec3 {
+            let bone = pose.positions[to] - pose.positions[from];
+            pose.rotations[chest].inverse() * bone
+        };
+        degrees_between(seen(before), seen(after))
+    });
+    turns.fold(0.0, f32::max)
 }
