@@ -242,6 +242,14 @@ fn other_proportions_keep_directions_of_bones_and_places_of_feet() {
             assert!(distances.percentile_95_cm < 1.5, "{}", mapped.report);
         }
     }
+    // Arms point as the source's; wider hips and planted feet turn the legs, and the report says so.
+    let by_limb = &mapped.report.fit_error.by_limb;
+    assert_eq!(by_limb.len(), 8);
+    for (joint, angles) in by_limb {
+        let is_arm = Joint::ARMS.iter().flatten().any(|arm| arm == joint);
+        assert_eq!(angles.max_degrees < 0.2, is_arm, "{}", mapped.report);
+        assert!(angles.mean_degrees < 5.0, "{}", mapped.report);
+    }
     for frame in 0..90 {
         let (ours, theirs) = (
             pose(&mapped.motion, &figure(), frame).0,

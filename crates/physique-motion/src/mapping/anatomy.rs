@@ -7,13 +7,15 @@
 //! next along a straight chain (upper arm to forearm to hand, chest to neck to head) axes carry
 //! over by the zero pose, in which the chain is straight and untwisted.
 
+mod arm;
+mod leg;
+
 use glam::{Quat, Vec3};
 use physique_body::Joint;
 
 use super::{
-    axes::{align, degrees_between, mean_rotation, reject, snapped},
+    axes::{align, degrees_between, snapped},
     body_rest::BodyRest,
-    figure::ball_of_foot,
     human_joints::{HumanJoints, Limbs},
     soles::Soles,
 };
@@ -63,24 +65,22 @@ struct Side {
 }
 
 impl Side {
-    const LEFT: Self = Self {
-        shoulder: Joint::LeftShoulder,
-        elbow: Joint::LeftElbow,
-        wrist: Joint::LeftWrist,
-        hip: Joint::LeftHip,
-        knee: Joint::LeftKnee,
-        ankle: Joint::LeftAnkle,
-        outward: Vec3::X,
-    };
-    const RIGHT: Self = Self {
-        shoulder: Joint::RightShoulder,
-        elbow: Joint::RightElbow,
-        wrist: Joint::RightWrist,
-        hip: Joint::RightHip,
-        knee: Joint::RightKnee,
-        ankle: Joint::RightAnkle,
-        outward: Vec3::NEG_X,
-    };
+    const LEFT: Self = Self::of(0, Vec3::X);
+    const RIGHT: Self = Self::of(1, Vec3::NEG_X);
+
+    const fn of(side: usize, outward: Vec3) -> Self {
+        let [_, shoulder, elbow, wrist] = Joint::ARMS[side];
+        let [hip, knee, ankle, _] = Joint::LEGS[side];
+        Self {
+            shoulder,
+            elbow,
+            wrist,
+            hip,
+            knee,
+            ankle,
+            outward,
+        }
+    }
 
     fn limbs(self, human: &HumanJoints) -> &Limbs {
         if self.outward == Vec3::X {
@@ -184,74 +184,6 @@ impl Anatomy<'_> {
         }
     }
 
-    fn arm(&mut self, side: Side) {
-        let limbs = *side.limbs(self.human);
-        let (shoulder, elbow) = (limbs.shoulder, limbs.elbow);
-        if let Some(collar) = limbs.collar {
-            // A clavicle at rest points to the side; the body's own slope stays the body's.
-            let chest = self.human.chest();
-            let chest_from_body = self.joint_from_body[chest];
-            let forward = self.seen_from(collar, |pose| {
-                pose.rotations[chest] * (chest_from_body * Vec3::Z)
-            });
-            let bone = snapped(self.bone(collar, shoulder), SNAP_DEGREES);
-            let local = [bone, snapped(forward, SNAP_DEGREES)];
-            self.set(collar, [side.outward, Vec3::Z], local);
-        }
-        // An elbow bends forward.
-        let body_upper = self.body.bone(side.shoulder, side.elbow);
-        let body_hinge = side.outward.cross(Vec3::Z);
-        let upper = self.bone(shoulder, elbow);
-        let Some(wrist) = limbs.wrist else {
-            let hinge = self.chest_axis(shoulder, body_hinge);
-            self.set(shoulder, [body_upper, body_hinge], [upper, hinge]);
-            self.carry(shoulder, elbow);
-            return;
-        };
-        let bones = [shoulder, elbow, wrist];
-        let mut hinge = self.hinge(shoulder, bones);
-        if hinge == Vec3::ZERO {
-            hinge = self.chest_axis(shoulder, body_hinge);
-        }
-        self.set(shoulder, [body_upper, body_hinge], [upper, hinge]);
-
-        let fore = self.bone(elbow, wrist);
-        let fore_hinge = self.carried_if_straight(upper, hinge, [shoulder, elbow], fore, bones);
-        let body_fore = self.body.bone(side.elbow, side.wrist);
-        self.set(elbow, [body_fore, body_hinge], [fore, fore_hinge]);
-        self.carry(elbow, wrist);
-        self.palm(side, wrist);
-    }
-
-    /// A palm faces down in a T-pose: the knuckle of the index lies before that of the little
-    /// finger. Without fingers the hand stays as the zero pose has it.
-    fn palm(&mut self, side: Side, wrist: usize) {
-        let knuckle = |names: &[&str]| {
-            (wrist + 1..self.skeleton.joint_count()).find(|&joint| {
-                let name = self.skeleton.joints()[joint].name.to_lowercase();
-                names.iter().any(|finger| name.contains(finger))
-                    && self.skeleton.is_at_or_below(joint, wrist)
-            })
-        };
-        let (Some(index), Some(little)) = (knuckle(&["index"]), knuckle(&["pinky", "little"]))
-        else {
-            return;
-        };
-        let across = self.seen_from(wrist, |pose| pose.positions[index] - pose.positions[little]);
-        let along = self.joint_from_body[wrist] * side.outward;
-        self.set(wrist, [side.outward, Vec3::Z], [along, across]);
-    }
-
-    /// Mean of one of the chest's body axes seen from a joint: for an arm that never bends.
-    fn chest_axis(&self, joint: usize, body_axis: Vec3) -> Vec3 {
-        let chest = self.human.chest();
-        let axis = self.joint_from_body[chest] * body_axis;
-        snapped(
-            self.seen_from(joint, |pose| pose.rotations[chest] * axis),
-            SNAP_DEGREES,
-        )
-    }
-
     /// The upper bone's hinge as the lower joint's axis: by the zero pose if the limb is straight
     /// there, otherwise as the lower joint sees the hinge over the clip.
     fn carried_if_straight(
@@ -267,78 +199,6 @@ impl Anatomy<'_> {
             self.carried(hinge, from, to)
         } else {
             seen
-        }
-    }
-
-    fn leg(&mut self, side: Side) {
-        let limbs = *side.limbs(self.human);
-        let (hip, knee, ankle) = (limbs.hip, limbs.knee, limbs.ankle);
-        let bones = [hip, knee, ankle];
-        let thigh = self.bone(hip, knee);
-        let mut hinge = self.hinge(hip, bones);
-        if hinge == Vec3::ZERO {
-            // A knee that never bends: its hinge lies across the body on the whole.
-            let pelvis = self.human.pelvis;
-            let left = self.joint_from_body[pelvis] * Vec3::X;
-            let left = self.seen_from(hip, |pose| pose.rotations[pelvis] * left);
-            hinge = snapped(left, SNAP_DEGREES);
-        }
-        self.set(
-            hip,
-            [self.body.bone(side.hip, side.knee), Vec3::X],
-            [thigh, hinge],
-        );
-
-        let shin = self.bone(knee, ankle);
-        let shin_hinge = self.carried_if_straight(thigh, hinge, [hip, knee], shin, bones);
-        self.set(
-            knee,
-            [self.body.bone(side.knee, side.ankle), Vec3::X],
-            [shin, shin_hinge],
-        );
-        self.foot(side, &limbs, self.carried(shin_hinge, knee, ankle));
-    }
-
-    /// The ankle hinges about the knee's axis; its sole is level when the foot is lowest.
-    fn foot(&mut self, side: Side, limbs: &Limbs, left: Vec3) {
-        let ankle = limbs.ankle;
-        let Some((ball, offset)) = ball_of_foot(self.skeleton, limbs) else {
-            self.carry(limbs.knee, ankle);
-            return;
-        };
-        let toward_ball = self.seen_from(ankle, |pose| {
-            pose.positions[ball] + pose.rotations[ball] * offset - pose.positions[ankle]
-        });
-        let Some(left) = reject(left, toward_ball) else {
-            self.carry(limbs.knee, ankle);
-            return;
-        };
-        let pitch = self.soles.pitch;
-        let forward = Quat::from_axis_angle(left, -pitch) * toward_ball;
-        let heading = self.body.foot_heading(side.ankle);
-        let across = Vec3::Y.cross(heading);
-        self.set(ankle, [across, heading], [left, forward]);
-        if let Some(foot) = limbs.foot {
-            self.toes(foot, ankle, self.soles.ankle_height);
-        }
-    }
-
-    /// Toes are level with the sole when the foot stands: their mean turn in the lowest frames.
-    fn toes(&mut self, foot: usize, ankle: usize, ankle_height: f32) {
-        const STANDS_WITHIN_METRES: f32 = 0.02;
-        let standing = self
-            .poses
-            .iter()
-            .filter(|pose| (pose.positions[ankle].y - ankle_height).abs() < STANDS_WITHIN_METRES);
-        let foot_from_ankle = mean_rotation(
-            standing.map(|pose| (1.0, pose.rotations[foot].inverse() * pose.rotations[ankle])),
-        );
-        match foot_from_ankle {
-            Some(foot_from_ankle) => {
-                self.joint_from_body[foot] =
-                    (foot_from_ankle * self.joint_from_body[ankle]).normalize();
-            }
-            None => self.carry(ankle, foot),
         }
     }
 }

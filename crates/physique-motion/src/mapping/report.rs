@@ -157,6 +157,14 @@ impl fmt::Display for MappingReport {
                     distances.mean_cm, distances.percentile_95_cm, distances.max_cm
                 )?;
             }
+            let mut angles = self.fit_error.by_limb.iter();
+            if let Some((_, angles)) = angles.find(|(of, _)| *of == joint.joint) {
+                write!(
+                    formatter,
+                    ", bone off by {:4.1}° mean {:4.1}° max",
+                    angles.mean_degrees, angles.max_degrees
+                )?;
+            }
             writeln!(formatter)?;
         }
         for note in &self.notes {

@@ -5,13 +5,15 @@ use physique_body::Joint;
 
 use super::{
     MappingOptions,
-    alignment::{AlignedBy, Alignment},
+    alignment::{AlignedBy, Alignment, LIMB_BONES},
+    axes::degrees_between,
     body_rest::BodyRest,
     figure::ball_of_foot,
     fit_error::{FitError, FitErrorGatherer},
     floor::Floor,
     human_joints::HumanJoints,
     legs::Leg,
+    range::RangeCheck,
     soles::Soles,
     spine::SpineWeights,
     twist::share_wrist_twist,
@@ -97,12 +99,17 @@ impl<'a> Retarget<'a> {
         let mut root_translation = Vec::with_capacity(frames);
         let mut rotations = Vec::with_capacity(frames * Joint::COUNT);
         let mut errors = FitErrorGatherer::default();
+        let mut range = RangeCheck::default();
         let mut largest_turn = 0.0f32;
         let mut pose = SkeletonPose::default();
         for frame in first_frame..clip.frame_count() {
             clip.pose_into(frame, &mut pose);
             pose.turn(self.level_from_source);
             let mut world = self.orient(&pose);
+            range.add(&world);
+            if self.share_twist {
+                self.share_wrist_twist(&mut world);
+            }
             let pelvis = self.place_pelvis(&pose, &world, ground);
             if self.plant_feet {
                 let turn = self.plant_feet(&pose, &mut world, pelvis, ground);
@@ -113,6 +120,14 @@ impl<'a> Retarget<'a> {
                 if let Some(source) = self.human.source_of(joint) {
                     let goal = self.scaled(pose.positions[source], ground);
                     errors.add(joint, goal.distance(positions[joint.index()]));
+                }
+            }
+            for (upper, lower) in LIMB_BONES {
+                let ends = [upper, lower].map(|joint| self.human.source_of(joint));
+                if let [Some(from), Some(to)] = ends {
+                    let source = pose.positions[to] - pose.positions[from];
+                    let result = positions[lower.index()] - positions[upper.index()];
+                    errors.add_bone(upper, degrees_between(source, result));
                 }
             }
             root_translation.push(pelvis - self.body.joint(Joint::Pelvis));
@@ -127,7 +142,11 @@ impl<'a> Retarget<'a> {
             ground,
             fit_error: errors.finish(),
             largest_leg_correction_degrees: largest_turn,
-            notes: self.notes(ground),
+            notes: self
+                .notes(ground)
+                .into_iter()
+                .chain(range.notes())
+                .collect(),
         };
         Ok((
             Motion::new(clip.frame_rate(), None, root_translation, rotations)?,
@@ -181,17 +200,15 @@ impl<'a> Retarget<'a> {
                 None => world[parent.index()],
             };
         }
-        if self.share_twist {
-            for [elbow, wrist] in [
-                [Joint::LeftElbow, Joint::LeftWrist],
-                [Joint::RightElbow, Joint::RightWrist],
-            ] {
-                let forearm = self.body.bone(elbow, wrist);
-                world[elbow.index()] =
-                    share_wrist_twist(world[elbow.index()], world[wrist.index()], forearm);
-            }
-        }
         world
+    }
+
+    fn share_wrist_twist(&self, world: &mut [Quat; Joint::COUNT]) {
+        for [_, _, elbow, wrist] in Joint::ARMS {
+            let forearm = self.body.bone(elbow, wrist);
+            world[elbow.index()] =
+                share_wrist_twist(world[elbow.index()], world[wrist.index()], forearm);
+        }
     }
 
     /// Where the pelvis is when the middle of the hips is where the source has it.
