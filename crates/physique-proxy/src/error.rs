@@ -66,4 +66,21 @@ pub enum Error {
         /// Index of the frame.
         frame: usize,
     },
+    /// A height field that is none.
+    #[error("Height field: expected {expected}, found {found}.")]
+    HeightField {
+        /// What a height field needs.
+        expected: &'static str,
+        /// What this one has.
+        found: String,
+    },
+    /// Features or positions that do not work; boxed, because it is the largest.
+    #[error(transparent)]
+    Motion(Box<physique_motion::Error>),
+}
+
+impl From<physique_motion::Error> for Error {
+    fn from(error: physique_motion::Error) -> Self {
+        Self::Motion(Box::new(error))
+    }
 }

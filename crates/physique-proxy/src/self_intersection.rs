@@ -186,7 +186,7 @@ fn check_length(what: &'static str, poses: &[PoseMatrices], found: usize) -> Res
 }
 
 /// Names the frame whose loss is not finite, and the joint where that began.
-fn refuse(poses: &[PoseMatrices], frame: Option<usize>) -> Result<(), Error> {
+pub(crate) fn refuse(poses: &[PoseMatrices], frame: Option<usize>) -> Result<(), Error> {
     let Some(frame) = frame else {
         return Ok(());
     };
