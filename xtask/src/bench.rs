@@ -22,10 +22,11 @@ struct Row {
     milliseconds: f64,
 }
 
-const CRATES: [&str; 5] = [
+const CRATES: [&str; 6] = [
     "physique-geometry",
     "physique-body",
     "physique-motion",
+    "physique-proxy",
     "physique",
     "physique-view",
 ];
@@ -118,6 +119,7 @@ pub(crate) fn run(peers: bool) -> Result<()> {
     println!("{table}");
     if peers {
         skinning_peer(&rows)?;
+        sphere_loss_peer()?;
     }
     Ok(())
 }
@@ -147,6 +149,48 @@ fn skinning_peer(rows: &[Row]) -> Result<()> {
         );
     }
     Ok(())
+}
+
+/// Times the sphere loss here and in PyTorch, one after the other, and prints the ratios of processor
+/// times.
+fn sphere_loss_peer() -> Result<()> {
+    const SIZES: [&str; 3] = ["64", "1024", "12544"];
+    let example = ["run", "--release", "-p", "physique-proxy"];
+    let mut ours = cargo(&example);
+    ours.args(["--example", "sphere_loss_speed", "--"])
+        .args(SIZES);
+    let ours = output("sphere loss", &mut ours)?;
+    print!("{ours}");
+    let folder = root().join("benches/peers");
+    let python = environment("peers", &folder.join("requirements.txt"))?;
+    let mut peer = Command::new(python);
+    let peer = output(
+        "PyTorch sphere loss",
+        peer.arg(folder.join("sphere_loss.py")).args(SIZES),
+    )?;
+    print!("{peer}");
+    let best = processor_times(&ours);
+    for (frames, peer) in processor_times(&peer) {
+        // The first line of a size is the best backend's.
+        if let Some((_, ours)) = best.iter().find(|(of, _)| *of == frames) {
+            println!(
+                "sphere loss, {frames} frames: ratio {:.0} (goals 3000 at 1024, 2000 at 12544)",
+                peer / ours
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Frames and processor milliseconds of lines like `frames 64, AVX2: wall 1 ms, CPU 2 ms`.
+fn processor_times(printed: &str) -> Vec<(u32, f64)> {
+    let line = |line: &str| {
+        let frames = line.strip_prefix("frames ")?;
+        let digits = frames.find(|letter: char| !letter.is_ascii_digit())?;
+        let time = line.split_once("CPU ")?.1.split_once(" ms")?.0;
+        Some((frames[..digits].parse().ok()?, time.parse().ok()?))
+    };
+    printed.lines().filter_map(line).collect()
 }
 
 /// Names and medians in milliseconds of divan's tree: the third column of each line with times.
@@ -182,7 +226,14 @@ fn milliseconds(cell: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::medians;
+    use super::{medians, processor_times};
+
+    #[test]
+    fn reads_processor_times() {
+        let printed = "17 pairs\nframes 64, AVX-512: wall 0.02 ms, CPU 0.03 ms, 9 kB\n\
+                       frames 1024: wall 800.5 ms, CPU 1600.25 ms, process 9 MiB at most\n";
+        assert_eq!(processor_times(printed), [(64, 0.03), (1024, 1600.25)]);
+    }
 
     #[test]
     fn reads_the_tree_that_divan_prints() {

@@ -60,12 +60,13 @@ impl<S: Simd> Kernel<S> for Tile<'_, S::Lanes> {
         ahead.part(2);
         let too_far = bounds::bound(simd, plan, work);
         ahead.part(3);
-        let pairs = match (&self.gradient, &self.shape) {
-            (None, _) => pairs::pairs::<S, false, false>,
-            (_, None) => pairs::pairs::<S, true, false>,
-            (_, Some(_)) => pairs::pairs::<S, true, true>,
+        // Calls, not a choice of functions: through a pointer nothing is inlined.
+        let penalty = self.penalty;
+        let loss = match (&self.gradient, &self.shape) {
+            (None, _) => pairs::pairs::<S, false, false>(simd, plan, work, penalty),
+            (_, None) => pairs::pairs::<S, true, false>(simd, plan, work, penalty),
+            (_, Some(_)) => pairs::pairs::<S, true, true>(simd, plan, work, penalty),
         };
-        let loss = pairs(simd, plan, work, self.penalty);
         (loss + not_finite + too_far).store(self.losses);
         if let Some(gradient) = self.gradient {
             let slope = match self.penalty {

@@ -1,7 +1,7 @@
 //! Physique scores human motion for what a body could really perform.
 //!
-//! This is the face: the floors below are re-exported as [`body`], [`motion`], [`geometry`]
-//! and [`physics`].
+//! This is the face: the floors below are re-exported as [`body`], [`motion`], [`geometry`],
+//! [`physics`] and [`proxy`].
 //!
 //! ```
 //! use physique::body::{Body, Joint, Sex, open_body};
@@ -45,6 +45,7 @@ pub use physique_body as body;
 pub use physique_geometry as geometry;
 pub use physique_motion as motion;
 pub use physique_physics as physics;
+pub use physique_proxy as proxy;
 
 pub use body_description::BodyDescription;
 pub use condition::Condition;
