@@ -26,6 +26,7 @@ use std::path::Path;
 use physique_files::pickle::PickleLimits;
 use physique_files::{Data, Error as DataError};
 
+use crate::features::JointFile;
 use crate::npz::{Array, ArrayLimits};
 use crate::read::{Part, open_archive};
 use crate::{Error, ReadOptions, SourceMotion, amass, native};
@@ -118,6 +119,15 @@ pub(crate) fn from_bytes(
         Data::Dict(_) | Data::List(_) => dictionary::read(&context, &data),
         other => Err(context.unknown(other.kind())),
     }
+}
+
+/// The only motion of an array of features or positions, for [`crate::features::parse`].
+pub(crate) fn joint_file(
+    array: &Array,
+    path: &Path,
+    options: &ReadOptions,
+) -> Result<JointFile, Error> {
+    joints::only(&Context { path, options }, array)
 }
 
 /// Motions of an array without a dictionary around it.

@@ -77,6 +77,9 @@ impl Content {
                 Self::Other("JSON, but neither glTF nor DeepMimic's".into())
             };
         }
+        if let Some(looks_like) = rows_of_numbers(text) {
+            return Self::Other(looks_like);
+        }
         if Pickle::looks_like(bytes) {
             return Self::Arrays;
         }
@@ -86,6 +89,33 @@ impl Content {
             start.escape_ascii()
         ))
     }
+}
+
+/// What a table of numbers without names looks like, if its first line is one.
+fn rows_of_numbers(text: &[u8]) -> Option<String> {
+    /// Longer lines are no row of one pose.
+    const LONGEST: usize = 1 << 16;
+    let line = text.split(|&byte| byte == b'\n').next()?;
+    let line = str::from_utf8(line.get(..line.len().min(LONGEST))?).ok()?;
+    let numbers: Result<Vec<f64>, _> = line
+        .trim()
+        .split(',')
+        .map(|number| number.trim().parse())
+        .collect();
+    let numbers = numbers.ok().filter(|numbers| numbers.len() > 1)?;
+    let count = numbers.len();
+    // A place, a quaternion of unit length, and at least as many joints as a pair of legs has.
+    let turn = numbers.get(3..7).unwrap_or_default().iter();
+    let length: f64 = turn.map(|part| part * part).sum();
+    Some(if count >= 7 + 10 && (length - 1.0).abs() < 1e-3 {
+        let joints = count - 7;
+        format!(
+            "a robot's poses (MuJoCo qpos: place, quaternion and {joints} joint angles a line), \
+             which have no human body; score the human motion that they were retargeted from"
+        )
+    } else {
+        format!("lines of {count} numbers without names")
+    })
 }
 
 /// Text behind a byte order mark, blank lines and the `#` and `//` comments that BVH allows.

@@ -68,6 +68,22 @@ impl IkOptions {
     }
 }
 
+/// Whether the bones of the positions are as long as this body's: the positions are then of this
+/// very body, and [`IkOptions::for_joints_of`] gives its motion back.
+pub fn are_joints_of(positions: &JointPositions, body: &BodyRest) -> bool {
+    /// A millimetre: no two persons' 21 bones agree so well, and files keep more digits.
+    const METRES: f32 = 1e-3;
+    let Ok(positions) = positions.to_smpl_joints() else {
+        return false;
+    };
+    let directions = positions.skeleton().smpl_rest_directions();
+    SourceBones::at_rest(&positions, &directions).is_ok_and(|bones| {
+        Joint::ALL.into_iter().all(|joint| {
+            (bones.offset(joint).length() - body.offset(joint).length()).abs() < METRES
+        })
+    })
+}
+
 /// A motion found from positions, and how well it meets them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IkSolution {

@@ -82,6 +82,11 @@ fn a_file_of_no_known_format_is_told_what_it_looks_like() {
         (b"\x80\x02].".to_vec(), "a list of 0"),
         (b"{\"poses\": []}".to_vec(), "JSON, but neither glTF"),
         (b"hello, world".to_vec(), "begins with `hello, world`"),
+        (
+            format!("0.1,0.2,0.79,0,0,0.6,0.8{}\n", ",0.1".repeat(29)).into_bytes(),
+            "29 joint angles",
+        ),
+        (b"1.5, 2, 3\n4, 5, 6\n".to_vec(), "lines of 3 numbers"),
         (b"# only a comment".to_vec(), "begins with ``"),
         (archive.finish().unwrap(), "`joints`: an array [1]"),
     ] {

@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use physique_body::{Body, Joint};
-use physique_motion::inverse_kinematics::{IkOptions, IkSolution, solve, solve_by_paper_layer};
+use physique_motion::inverse_kinematics::{
+    IkOptions, IkSolution, are_joints_of, solve, solve_by_paper_layer,
+};
 use physique_motion::mapping::{
     BodyRest, FitError, Mapped, MappingOptions, MappingReport, map_to_body,
 };
@@ -211,7 +213,18 @@ pub fn load_positions(
     options: &LoadOptions,
 ) -> Result<Loaded, Error> {
     let rest = BodyRest::from(body);
-    let ik = &options.inverse_kinematics;
+    let mut notes = clip.notes.clone();
+    let given = &options.inverse_kinematics;
+    let own = given.rest_directions.is_none() && are_joints_of(&clip.positions, &rest);
+    let own_options = IkOptions {
+        twist_memory: given.twist_memory,
+        soles_on_ground: false,
+        ..IkOptions::for_joints_of(&rest)
+    };
+    let ik = if own { &own_options } else { given };
+    if own {
+        notes.push("The bones are this body's own: it stands where the positions say.".into());
+    }
     let (method, solution) = match options.rotations {
         RotationsFrom::InverseKinematics => {
             let solution = solve(&clip.positions, &rest, ik)?;
@@ -229,6 +242,6 @@ pub fn load_positions(
         motion,
         mapping: None,
         inverse_kinematics: Some(PositionFit { method, fit, scale }),
-        notes: clip.notes.clone(),
+        notes,
     })
 }

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::Context;
-use crate::features::{FeatureSkeleton, JointPositions, MotionFeatures, recover_from_positions};
+use crate::features::{FeatureSkeleton, JointFile, JointPositions, MotionFeatures};
 use crate::npz::Array;
 use crate::read::Part;
 use crate::{Error, FrameRate, PositionClip, SourceMotion};
@@ -57,6 +57,19 @@ impl Axes {
             (FeatureSkeleton::Kit, true) => "KIT-ML features",
             (FeatureSkeleton::Kit, false) => "KIT-ML joint positions",
         }
+    }
+
+    /// Which motion of the array, in words.
+    fn place(&self, motion: usize) -> String {
+        match self.motions {
+            Some(_) => format!("motion {motion}"),
+            None => "the array".into(),
+        }
+    }
+
+    fn not_a_motion(&self, context: &Context<'_>, motion: usize, error: &Error) -> Error {
+        let found = error.to_string();
+        context.format(self.place(motion), "a motion of finite numbers", found)
     }
 
     /// Numbers of a frame.
@@ -113,6 +126,17 @@ pub(super) fn numbers(context: &Context<'_>, array: &Array) -> Result<Vec<f32>, 
     })
 }
 
+/// The only motion of an array, features as features.
+pub(super) fn only(context: &Context<'_>, array: &Array) -> Result<JointFile, Error> {
+    let axes = Axes::of(array.shape()).filter(|axes| axes.motions.is_none());
+    let Some(axes) = axes else {
+        let expected = "[frames][263], [frames][251], [frames][22][3] or [frames][21][3]";
+        return Err(context.format("the shape", expected, format!("{:?}", array.shape())));
+    };
+    let values = numbers(context, array)?;
+    file(context, &axes, &values, 0, axes.frames, &mut Vec::new())
+}
+
 /// One motion of an array, cut to `frames` frames.
 pub(super) fn clip(
     context: &Context<'_>,
@@ -121,39 +145,43 @@ pub(super) fn clip(
     motion: usize,
     frames: usize,
 ) -> Result<SourceMotion, Error> {
+    let mut notes = Vec::new();
+    let positions = file(context, axes, values, motion, frames, &mut notes)?.into_positions();
+    let positions = positions.map_err(|error| axes.not_a_motion(context, motion, &error))?;
+    Ok(SourceMotion::Positions(PositionClip { positions, notes }))
+}
+
+fn file(
+    context: &Context<'_>,
+    axes: &Axes,
+    values: &[f32],
+    motion: usize,
+    frames: usize,
+    notes: &mut Vec<String>,
+) -> Result<JointFile, Error> {
     context.check_frames(frames)?;
     let rate = match context.options.frame_rate {
         Some(rate) => rate,
         None => FrameRate::new(axes.skeleton.frames_per_second())?,
     };
-    let place = || match axes.motions {
-        Some(_) => format!("motion {motion}"),
-        None => "the array".into(),
-    };
-    let not_a_motion =
-        |error: Error| context.format(place(), "a motion of finite numbers", error.to_string());
-    let rows = axes.rows(values, motion, frames);
-    let mut notes = Vec::new();
     if context.options.frame_rate.is_none() {
         notes.push(format!(
             "The file does not state its frame rate: the data set's {} frames a second were taken.",
             rate.per_second()
         ));
     }
-    let positions = if axes.is_features {
-        notes.push(format!(
-            "Joint positions were recovered from {}.",
-            axes.format()
-        ));
+    let rows = axes.rows(values, motion, frames);
+    let not_a_motion = |error: Error| axes.not_a_motion(context, motion, &error);
+    if axes.is_features {
+        let format = axes.format();
+        notes.push(format!("Joint positions were recovered from {format}."));
         let features = MotionFeatures::new(rate, axes.skeleton, rows).map_err(not_a_motion)?;
-        let features = in_own_units(context, features, &place(), &mut notes)?;
-        recover_from_positions(&features)
+        in_own_units(context, features, &axes.place(motion), notes).map(JointFile::Features)
     } else {
         let positions = rows.as_chunks().0.iter().copied().map(Vec3::from_array);
-        JointPositions::new(rate, axes.skeleton, positions.collect())
-    };
-    let positions = positions.map_err(not_a_motion)?;
-    Ok(SourceMotion::Positions(PositionClip { positions, notes }))
+        let positions = JointPositions::new(rate, axes.skeleton, positions.collect());
+        positions.map(JointFile::Positions).map_err(not_a_motion)
+    }
 }
 
 /// Features with their normalisation undone, where they have one.

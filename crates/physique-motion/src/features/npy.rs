@@ -4,10 +4,11 @@ use std::path::Path;
 
 use glam::Vec3;
 
-use super::{FeatureSkeleton, JointPositions, MotionFeatures};
+use super::{JointPositions, MotionFeatures};
 use crate::{
-    Error, FrameRate, ReadOptions,
+    Error, ReadOptions, arrays,
     npz::{Array, ArrayError, ArrayLimits, npy_f32},
+    read::file_name,
     read_file::read_file,
     write_file::write_file,
 };
@@ -46,6 +47,7 @@ pub fn read(path: impl AsRef<Path>, options: &ReadOptions) -> Result<JointFile, 
 /// Reads the bytes of a `.npy`; its shape says what it holds. `path` only names it in errors.
 ///
 /// The file does not say its frame rate: it is `options.frame_rate`, or else the data set's.
+/// Features that are normalised need `options.statistics`.
 ///
 /// # Errors
 /// [`Error::Array`] for anything but an array of numbers; [`Error::Format`] for another shape and,
@@ -56,67 +58,16 @@ pub fn parse(
     options: &ReadOptions,
 ) -> Result<JointFile, Error> {
     let path = path.as_ref();
-    let array_error = |problem| Error::Array {
-        path: path.into(),
-        problem,
-    };
-    let format = |place: &str, expected: &str, found: String| Error::Format {
-        path: path.into(),
-        place: place.into(),
-        expected: expected.into(),
-        found,
-    };
     let limits = ArrayLimits {
         bytes: options.limits.bytes,
         ..ArrayLimits::default()
     };
-    let key = path
-        .file_name()
-        .map_or_else(String::new, |name| name.to_string_lossy().into());
-    let array = Array::from_npy(&key, bytes, &limits).map_err(array_error)?;
-    let Some((frames, skeleton, are_features)) = content(array.shape()) else {
-        let expected = "[frames][263], [frames][251], [frames][22][3] or [frames][21][3]";
-        return Err(format(
-            "the shape",
-            expected,
-            format!("{:?}", array.shape()),
-        ));
-    };
-    if frames > options.limits.frames {
-        return Err(Error::Limit {
-            path: path.into(),
-            what: "the number of frames",
-            found: frames as u64,
-            limit: options.limits.frames as u64,
-        });
-    }
-    let rate = match options.frame_rate {
-        Some(rate) => rate,
-        None => FrameRate::new(skeleton.frames_per_second())?,
-    };
-    let values = array.to_f32().map_err(array_error)?;
-    let file = if are_features {
-        MotionFeatures::new(rate, skeleton, values).map(JointFile::Features)
-    } else {
-        let positions = values.as_chunks().0.iter().copied().map(Vec3::from_array);
-        JointPositions::new(rate, skeleton, positions.collect()).map(JointFile::Positions)
-    };
-    file.map_err(|error| format("the array", "a motion of finite numbers", error.to_string()))
-}
-
-/// Frames, skeleton, and whether they are features.
-fn content(shape: &[usize]) -> Option<(usize, FeatureSkeleton, bool)> {
-    FeatureSkeleton::ALL
-        .into_iter()
-        .find_map(|skeleton| match *shape {
-            [frames, columns] if columns == skeleton.feature_count() => {
-                Some((frames, skeleton, true))
-            }
-            [frames, joints, 3] if joints == skeleton.joint_count() => {
-                Some((frames, skeleton, false))
-            }
-            _ => None,
-        })
+    let array = Array::from_npy(&file_name(path), bytes, &limits);
+    let array = array.map_err(|problem| Error::Array {
+        path: path.into(),
+        problem,
+    })?;
+    arrays::joint_file(&array, path, options)
 }
 
 /// Writes features as `[frames][columns]` of 32 bits, beside the file first, then renamed.
