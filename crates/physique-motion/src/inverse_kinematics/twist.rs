@@ -53,7 +53,7 @@ impl Twist {
 /// directions here, so that no full turn has to be unwrapped.
 pub(super) fn steady(twists: &mut [Twist], memory: f32) {
     /// How sure a frame must be to stand against its neighbours.
-    const SURE: f32 = 0.03;
+    const SURE: f32 = 0.01;
     let Some(last) = twists.len().checked_sub(1) else {
         return;
     };
@@ -126,10 +126,10 @@ mod tests {
         for (frame, given) in given.iter().enumerate() {
             let mut slope = given.weight * x(frame) - given.toward;
             if frame > 0 {
-                slope += 0.03 * memory * memory * (x(frame) - x(frame - 1));
+                slope += 0.01 * memory * memory * (x(frame) - x(frame - 1));
             }
             if frame < 29 {
-                slope += 0.03 * memory * memory * (x(frame) - x(frame + 1));
+                slope += 0.01 * memory * memory * (x(frame) - x(frame + 1));
             }
             assert!(slope.length() < 1e-6, "{frame}: {slope}");
         }
