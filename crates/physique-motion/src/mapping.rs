@@ -17,6 +17,7 @@ mod alignment;
 mod anatomy;
 mod axes;
 mod body_rest;
+mod centre_of_mass;
 mod figure;
 mod find;
 mod fit_error;

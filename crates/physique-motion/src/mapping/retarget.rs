@@ -8,6 +8,7 @@ use super::{
     alignment::{AlignedBy, Alignment, LIMB_BONES},
     axes::degrees_between,
     body_rest::BodyRest,
+    centre_of_mass,
     figure::ball_of_foot,
     fit_error::{FitError, FitErrorGatherer},
     floor::Floor,
@@ -110,8 +111,9 @@ impl<'a> Retarget<'a> {
             if self.share_twist {
                 self.share_wrist_twist(&mut world);
             }
-            let pelvis = self.place_pelvis(&pose, &world, ground);
+            let mut pelvis = self.place_pelvis(&pose, &world, ground);
             if self.plant_feet {
+                pelvis += self.to_balance(&pose, &world, pelvis, ground);
                 let turn = self.plant_feet(&pose, &mut world, pelvis, ground);
                 largest_turn = largest_turn.max(turn);
             }
@@ -217,6 +219,59 @@ impl<'a> Retarget<'a> {
         let hips = self.scaled((left + right) / 2.0, ground);
         let from_pelvis = self.body.middle_of_hips() - self.body.joint(Joint::Pelvis);
         hips - world[Joint::Pelvis.index()] * from_pelvis
+    }
+
+    /// How far the pelvis must move for the centre of mass to be over the feet where the source
+    /// has it.
+    ///
+    /// In a walk the trunk sways to one side and the hips to the other, and the centre of mass
+    /// hardly at all. A longer trunk that turns by the same angles sways too far: 1 cm at the pace
+    /// of steps is 10 cm of zero moment point.
+    fn to_balance(
+        &self,
+        pose: &SkeletonPose,
+        world: &[Quat; Joint::COUNT],
+        pelvis: Vec3,
+        ground: f32,
+    ) -> Vec3 {
+        /// Beyond this, in metres, hips keep their place rather than the centre of mass.
+        const LONGEST: f32 = 0.1;
+        let mut planted = *world;
+        self.plant_feet(pose, &mut planted, pelvis, ground);
+        let body = self.mass_of_body(&self.positions(&planted, pelvis));
+        let way = centre_of_mass::between(&body, &self.mass_of_source(pose, ground));
+        centre_of_mass::pelvis_way(way, LONGEST)
+    }
+
+    fn mass_of_body(&self, positions: &[Vec3; Joint::COUNT]) -> centre_of_mass::Figure {
+        let at = |joint: Joint| positions[joint.index()];
+        let spine = [
+            at(Joint::LeftHip).midpoint(at(Joint::RightHip)),
+            at(Joint::Pelvis),
+            at(Joint::Spine1),
+            at(Joint::Spine2),
+            at(Joint::Spine3),
+            at(Joint::LeftShoulder).midpoint(at(Joint::RightShoulder)),
+        ];
+        centre_of_mass::Figure {
+            joints: positions.map(Some),
+            trunk: centre_of_mass::trunk_centre(spine.into_iter()),
+        }
+    }
+
+    fn mass_of_source(&self, pose: &SkeletonPose, ground: f32) -> centre_of_mass::Figure {
+        let at = |joint: usize| self.scaled(pose.positions[joint], ground);
+        let middle = |[left, right]: [usize; 2]| at(left).midpoint(at(right));
+        let spine = [self.human.pelvis]
+            .into_iter()
+            .chain(self.human.spine.iter().copied());
+        let spine = std::iter::once(middle(self.human.hips()))
+            .chain(spine.map(at))
+            .chain([middle(self.human.shoulders())]);
+        centre_of_mass::Figure {
+            joints: Joint::ALL.map(|joint| self.human.source_of(joint).map(at)),
+            trunk: centre_of_mass::trunk_centre(spine),
+        }
     }
 
     /// Turns thighs and shins until ankles and soles are where the scaled source has them; gives
