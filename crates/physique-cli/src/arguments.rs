@@ -8,6 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::body_choice::BodyArguments;
 use crate::convert::arguments::ConvertArguments;
 use crate::inspect::arguments::InspectArguments;
+use crate::proxy::arguments::ProxyVerb;
 use crate::scan::arguments::ScanArguments;
 use crate::score::arguments::ScoreArguments;
 
@@ -43,6 +44,9 @@ pub(crate) enum Verb {
     Convert(ConvertArguments),
     /// Score embedded clips of real motion and draw them, to see what Physique does.
     Demo(DemoArguments),
+    /// Spheres in place of a body: fit them, count which touch, measure them.
+    #[command(subcommand)]
+    Proxy(ProxyVerb),
     /// Print a completion script for a shell.
     Completions {
         /// The shell.

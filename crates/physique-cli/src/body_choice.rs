@@ -44,7 +44,7 @@ pub(crate) enum SexName {
 impl BodyArguments {
     /// The body that is asked for.
     pub(crate) fn body(&self) -> Result<Body> {
-        let model = self.model()?;
+        let model = model(&self.body)?;
         if let Some(betas) = &self.betas {
             return Ok(Body::new(model, betas)?);
         }
@@ -65,30 +65,31 @@ impl BodyArguments {
         Ok(Body::from_attributes(model, &person)?)
     }
 
-    fn model(&self) -> Result<Arc<BodyModel>> {
-        match self.body.as_str() {
-            "open" => Ok(open_body()?),
-            "open-low" => Ok(open_body_low()?),
-            file => {
-                // Motions have no hands and faces: fingers, jaw and eyes stay at rest.
-                let options = BodyOptions {
-                    joints: JointSet::Body22,
-                    ..BodyOptions::default()
-                };
-                let model = read_body(Path::new(file), &options)?;
-                let surface = model.surface();
-                if surface.open_edges > 0 || surface.components > 1 {
-                    eprintln!(
-                        "{file}: the mesh has {} open edges and {} parts; volumes are those of closed surfaces in one part.",
-                        surface.open_edges, surface.components
-                    );
-                }
-                Ok(Arc::new(model))
-            }
-        }
-    }
-
     const fn describes_nobody(&self) -> bool {
         self.sex.is_none() && self.stature.is_none() && self.mass.is_none() && self.age.is_none()
+    }
+}
+
+/// The body model of a `--body` flag.
+pub(crate) fn model(name: &str) -> Result<Arc<BodyModel>> {
+    match name {
+        "open" => Ok(open_body()?),
+        "open-low" => Ok(open_body_low()?),
+        file => {
+            // Motions have no hands and faces: fingers, jaw and eyes stay at rest.
+            let options = BodyOptions {
+                joints: JointSet::Body22,
+                ..BodyOptions::default()
+            };
+            let model = read_body(Path::new(file), &options)?;
+            let surface = model.surface();
+            if surface.open_edges > 0 || surface.components > 1 {
+                eprintln!(
+                    "{file}: the mesh has {} open edges and {} parts; volumes are those of closed surfaces in one part.",
+                    surface.open_edges, surface.components
+                );
+            }
+            Ok(Arc::new(model))
+        }
     }
 }

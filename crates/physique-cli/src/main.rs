@@ -12,6 +12,7 @@ mod journal;
 mod names;
 mod parquet;
 mod progress;
+mod proxy;
 mod scan;
 mod score;
 mod table;
@@ -42,6 +43,7 @@ fn main() -> ExitCode {
         Verb::Inspect(arguments) => inspect::run(arguments),
         Verb::Convert(arguments) => convert::run(arguments),
         Verb::Demo(arguments) => demo::run(arguments),
+        Verb::Proxy(verb) => proxy::run(verb),
         Verb::Completions { shell } => {
             let mut command = Arguments::command();
             clap_complete::generate(*shell, &mut command, "physique", &mut std::io::stdout());

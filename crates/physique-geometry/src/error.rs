@@ -201,4 +201,8 @@ pub enum Error {
         /// Number of entries given.
         found: usize,
     },
+
+    /// A mesh without triangles, where a surface is needed.
+    #[error("the mesh has no triangles, expected a closed surface")]
+    NoTriangles,
 }

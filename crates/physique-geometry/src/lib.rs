@@ -19,6 +19,7 @@ mod measure;
 pub mod reference;
 pub mod shapes;
 pub mod sia;
+mod signed_distance;
 mod triangle_pairs;
 mod triangles;
 
@@ -29,5 +30,6 @@ pub use column_scan::{
 pub use error::Error;
 pub use measure::{signed_volume, vertex_normals};
 pub use shapes::Mesh;
+pub use signed_distance::{NearestSurface, SignedDistances, space_filling_order};
 pub use triangle_pairs::{SharedVertices, TrianglePairs};
 pub use triangles::Triangles;

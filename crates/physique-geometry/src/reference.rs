@@ -94,6 +94,61 @@ pub fn winding_number(
     Ok(triangles.corners().iter().map(half_angle).sum::<f64>() / (2.0 * PI))
 }
 
+/// Signed distance of a point to a closed surface, negative where the surface winds around it: the
+/// least distance to a triangle (Ericson, "Real-Time Collision Detection", 2005, 5.1.5), and
+/// [`winding_number`]. Use [`SignedDistances`](crate::SignedDistances).
+///
+/// # Errors
+///
+/// If there is not one finite position a vertex.
+pub fn signed_distance(
+    triangles: &Triangles,
+    positions: &[Vec3],
+    point: DVec3,
+) -> Result<f64, Error> {
+    let winding = winding_number(triangles, positions, point)?;
+    let distance = triangles
+        .corners()
+        .iter()
+        .map(|corners| {
+            let [a, b, c] = corners.map(|v| positions[v as usize].as_dvec3());
+            (closest_point(point, a, b, c) - point).length()
+        })
+        .fold(f64::INFINITY, f64::min);
+    Ok(if winding > 0.5 { -distance } else { distance })
+}
+
+/// The point of a triangle that is closest to `p`.
+fn closest_point(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let (d1, d2) = (ab.dot(ap), ac.dot(ap));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return a;
+    }
+    let (d3, d4) = (ab.dot(p - b), ac.dot(p - b));
+    if d3 >= 0.0 && d4 <= d3 {
+        return b;
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        return a + ab * (d1 / (d1 - d3));
+    }
+    let (d5, d6) = (ab.dot(p - c), ac.dot(p - c));
+    if d6 >= 0.0 && d5 <= d6 {
+        return c;
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return a + ac * (d2 / (d2 - d6));
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+    }
+    let sum = va + vb + vc;
+    a + ab * (vb / sum) + ac * (vc / sum)
+}
+
 fn sum_of_rays(faces: &[[Vec3; 3]], point: Vec3) -> i32 {
     let crossings = |&direction: &[f32; 3]| -> i32 {
         faces

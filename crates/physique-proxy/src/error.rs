@@ -77,6 +77,99 @@ pub enum Error {
     /// Features or positions that do not work; boxed, because it is the largest.
     #[error(transparent)]
     Motion(Box<physique_motion::Error>),
+    /// A network's parameters that do not fit, or cannot be.
+    #[error("Regressor, {array}: expected {expected}, found {found}.")]
+    Regressor {
+        /// Which parameters.
+        array: String,
+        /// What fits.
+        expected: String,
+        /// What was given.
+        found: String,
+    },
+    /// More betas than a regressor reads, or betas that are not finite.
+    #[error("Shape: expected at most {available} finite betas, found {found}.")]
+    Betas {
+        /// Betas that the regressor reads.
+        available: usize,
+        /// The betas given.
+        found: String,
+    },
+    /// A recipe that cannot be followed.
+    #[error("Fit, {what}: expected {expected}, found {found}.")]
+    FitOptions {
+        /// Which option.
+        what: &'static str,
+        /// What is possible.
+        expected: String,
+        /// What was asked for.
+        found: String,
+    },
+    /// A body around which samples cannot be drawn.
+    #[error(
+        "Samples: expected {wanted} points near the surface on each side, found {inside} inside and {outside} outside."
+    )]
+    Samples {
+        /// Points wanted on each side.
+        wanted: usize,
+        /// Points found inside.
+        inside: usize,
+        /// Points found outside.
+        outside: usize,
+    },
+    /// A checkpoint of another fit, or a broken one.
+    #[error(
+        "Checkpoint {path}: expected the state of this fit, found {found}; choose another work folder to start anew."
+    )]
+    Checkpoint {
+        /// The file.
+        path: std::path::PathBuf,
+        /// What it holds.
+        found: String,
+    },
+    /// The body's mesh or shape does not allow it.
+    #[error(transparent)]
+    Body(#[from] physique_body::Error),
+    /// The body's surface does not allow it.
+    #[error(transparent)]
+    Geometry(#[from] physique_geometry::Error),
+    /// A file could not be read or written.
+    #[error(transparent)]
+    File(#[from] physique_files::FileError),
+    /// Counts of intersecting pairs that cannot be.
+    #[error("Pair statistics: expected counts of at most {poses} poses, found {count}.")]
+    PairCounts {
+        /// Poses counted.
+        poses: u64,
+        /// A count.
+        count: u32,
+    },
+    /// A proxy file that is not what its format demands.
+    #[error("Proxy file {file}, {place}: expected {expected}, found {found}.")]
+    ProxyFile {
+        /// The file.
+        file: String,
+        /// The array.
+        place: String,
+        /// What the format demands.
+        expected: String,
+        /// What the file holds.
+        found: String,
+    },
+    /// A proxy file that is broken, or holds more than data.
+    #[error("Proxy file {file}: {problem}")]
+    ProxyContent {
+        /// The file.
+        file: String,
+        /// What is wrong with it.
+        problem: Box<physique_files::Error>,
+    },
+    /// A size that is not embedded.
+    #[error("Embedded proxies: expected 128, 192 or 256 spheres, found {found}.")]
+    NoOpenProxy {
+        /// Spheres asked for.
+        found: usize,
+    },
 }
 
 impl From<physique_motion::Error> for Error {
