@@ -92,7 +92,8 @@ fn a_fault_of_the_recording_is_found() {
         panic!("one defect");
     };
     assert_eq!(defect.kind, DefectKind::Jump);
-    assert!((defect.at_s.unwrap() - 1.77).abs() < 0.01, "{defect}");
+    // Frames 105 to 108 of 60 a second; which of them is worst depends on the mapping.
+    assert!((1.75..1.81).contains(&defect.at_s.unwrap()), "{defect}");
 }
 
 #[test]
