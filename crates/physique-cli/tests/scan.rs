@@ -47,7 +47,7 @@ fn bad_clips_are_listed_with_reasons_and_filtered() {
     let clips = at(&folder, "clips");
     let [bad, good] = [at(&folder, "bad.txt"), at(&folder, "good.txt")];
     let text = succeeds(&["scan", &clips, "-o", &bad, "--good", &good]);
-    assert!(text.contains("jump: At 1.77 s"), "{text}");
+    assert!(text.contains("jump: At 1.75 s"), "{text}");
     assert!(text.contains("too-short: The clip lasts 0.1"), "{text}");
     assert!(text.contains("4 of 5 clips are bad"), "{text}");
     let names = |list: &str| {
