@@ -22,7 +22,7 @@ mod stream;
 mod zero_moment;
 
 pub use balance::SupportedBalance;
-pub use contact::{Sliding, soft_contact};
+pub use contact::{Sliding, soft_contact, sole_contacts};
 pub use ground::{Floating, Penetration};
 pub use pressure::PressureBalance;
 pub use shaped::LossBody;

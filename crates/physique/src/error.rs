@@ -16,6 +16,15 @@ pub enum Error {
     /// A body or motion whose physics cannot be measured; boxed, because it wraps the floors below.
     #[error(transparent)]
     Physics(Box<physique_physics::Error>),
+    /// A sphere proxy that does not work.
+    #[error(transparent)]
+    Proxy(#[from] physique_proxy::Error),
+    /// A repair of no strength.
+    #[error("The strength of a repair must be a positive number; found {found}.")]
+    Strength {
+        /// The strength as given.
+        found: f64,
+    },
     /// A motion without frames has no score.
     #[error("The motion has no frames: there is nothing to score.")]
     NoFrames,

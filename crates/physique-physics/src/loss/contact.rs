@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 
-use super::{FrameLoss, Window};
+use super::stream::check;
+use super::{FrameLoss, LossBody, MotionSlices, Window};
+use crate::Error;
 use crate::soles::SOLE_POINTS;
 
 /// How surely a point at this height above ground and speed stands: the product of two logistic
@@ -10,6 +12,39 @@ use crate::soles::SOLE_POINTS;
 pub fn soft_contact(height_m: f64, speed_m_s: f64) -> f64 {
     let step = |x: f64| 1.0 / (1.0 + (-x).exp());
     step((0.02 - height_m) / 0.005) * step((0.3 - speed_m_s) / 0.05)
+}
+
+/// `[frames][12]` how surely each sole point of a motion stands, by [`soft_contact`] with speeds from
+/// the frame before to the one after.
+///
+/// # Errors
+/// As [`super::evaluate`].
+pub fn sole_contacts(
+    body: &LossBody,
+    motion: &MotionSlices<'_>,
+    ground: f64,
+) -> Result<Vec<f64>, Error> {
+    let joints = check(body, motion)?;
+    let shaped = body.shaped(motion.betas);
+    let (mut world_from_rest, mut soles) = (Vec::new(), Vec::new());
+    for (rotations, &root) in motion.rotations.chunks(joints).zip(motion.root) {
+        let rotations = rotations.iter().copied();
+        shaped.rig.pose(rotations, root, &mut world_from_rest);
+        soles.push(std::array::from_fn::<_, SOLE_POINTS, _>(|point| {
+            shaped.posed_skin(point, &world_from_rest)
+        }));
+    }
+    let last = soles.len() - 1;
+    let frames = soles.iter().enumerate().flat_map(|(frame, now)| {
+        let (before, after) = (frame.saturating_sub(1), (frame + 1).min(last));
+        let seconds = motion.frame_rate.frame_seconds() * (after - before).max(1) as f64;
+        let (before, after) = (&soles[before], &soles[after]);
+        (0..SOLE_POINTS).map(move |point| {
+            let step = after[point] - before[point];
+            soft_contact(now[point].y - ground, step.length() / seconds)
+        })
+    });
+    Ok(frames.collect())
 }
 
 /// Horizontal speed of sole points that ought to stand: the mean over frames of

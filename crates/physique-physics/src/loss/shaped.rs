@@ -160,6 +160,14 @@ impl ShapedBody<'_> {
     pub(crate) fn mass_points(&self) -> MassPoints {
         self.body.mass_points.with_positions(self.mass.clone())
     }
+
+    /// A skin point in the world.
+    pub(crate) fn posed_skin(&self, point: usize, world_from_rest: &[DMat4]) -> DVec3 {
+        let terms = self.body.skin[point].weights.iter().map(|&(joint, weight)| {
+            world_from_rest[joint].transform_point3(self.skin[point]) * weight
+        });
+        terms.sum()
+    }
 }
 
 /// Gradient to a rest body: of fixed size, however long the motion.

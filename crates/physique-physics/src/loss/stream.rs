@@ -111,7 +111,7 @@ pub fn evaluate(
     })
 }
 
-fn check(body: &LossBody, motion: &MotionSlices<'_>) -> Result<usize, Error> {
+pub(super) fn check(body: &LossBody, motion: &MotionSlices<'_>) -> Result<usize, Error> {
     let frames = motion.root.len();
     if frames == 0 {
         return Err(Error::NoFrames);
@@ -232,13 +232,7 @@ impl Window<'_> {
 
     /// A skin point in the world.
     pub(crate) fn skin_point(&self, offset: isize, point: usize) -> DVec3 {
-        let rest = self.shaped.skin[point];
-        let transforms = self.transforms(offset);
-        let weights = &self.shaped.body.skin[point].weights;
-        let terms = weights
-            .iter()
-            .map(|&(joint, weight)| transforms[joint].transform_point3(rest) * weight);
-        terms.sum()
+        self.shaped.posed_skin(point, self.transforms(offset))
     }
 
     /// Adds the gradient of a skin point in the world.
