@@ -21,7 +21,6 @@ pub use promise::{PROMISE, Tolerance, Worse};
 use physique_body::Body;
 use physique_motion::Motion;
 use physique_physics::loss::LossBody;
-use physique_physics::{Physics, PhysicsOptions};
 use physique_proxy::{Pairs, SelfIntersection, SphereBody};
 
 use crate::{Error, MotionScore, ScoreOptions, Scorer};
@@ -102,7 +101,6 @@ pub struct Repaired {
 /// Repairs motions of one body: what they share is prepared once.
 pub struct Repairer {
     scorer: Scorer,
-    physics: Physics,
     loss_body: LossBody,
     sphere_body: SphereBody,
     spheres: SelfIntersection,
@@ -127,9 +125,14 @@ impl Repairer {
             });
         }
         Ok(Self {
-            physics: Physics::new(&body)?,
             loss_body: LossBody::new(&body, SKIN_POINTS)?,
-            scorer: Scorer::new(body, ScoreOptions::default())?,
+            scorer: Scorer::new(
+                body,
+                ScoreOptions {
+                    series: true,
+                    ..ScoreOptions::default()
+                },
+            )?,
             spheres: SelfIntersection::new(&spheres, pairs)?,
             sphere_body: spheres,
             options,
@@ -160,9 +163,5 @@ impl Repairer {
         progress: impl FnMut(usize, &MotionScore),
     ) -> Result<Repaired, Error> {
         Rounds::new(self, motion)?.run(progress)
-    }
-
-    fn physics_of(&self, motion: &Motion) -> Result<physique_physics::PhysicsMeasures, Error> {
-        Ok(self.physics.measure(motion, &PhysicsOptions::default())?)
     }
 }

@@ -39,7 +39,9 @@ pub(super) struct Objective<'a> {
     pub(super) grounded: Option<Vec<f64>>,
     /// `[frames][12]` weights of sole points that stand; none where feet are left alone.
     pub(super) contacts: Option<Vec<f64>>,
-    /// Multiplies all but the stiffness.
+    /// Multiplies the self-intersection and what keeps touches.
+    pub(super) self_strength: f64,
+    /// Multiplies the losses of ground and feet.
     pub(super) strength: f64,
 }
 
@@ -75,7 +77,7 @@ impl Objective<'_> {
         let Some(weights) = &self.self_weights else {
             return Part::default();
         };
-        let weights: Vec<_> = weights.iter().map(|w| w * (CM2 * self.strength) as f32).collect();
+        let weights: Vec<_> = weights.iter().map(|w| w * (CM2 * self.self_strength) as f32).collect();
         let frames = changed.poses.len();
         let mut losses = vec![0.0; frames];
         let mut by_poses: Vec<PoseMatrices> = vec![Default::default(); frames];
@@ -97,7 +99,7 @@ impl Objective<'_> {
                 turn(by_matrix * rotation.transpose())
             })
             .collect();
-        let touch = CM2 * TOUCH * self.strength;
+        let touch = CM2 * TOUCH * self.self_strength;
         cost += touch * self.touches.cost(changed, touch, &mut turns);
         Part {
             cost,

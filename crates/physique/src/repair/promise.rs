@@ -1,14 +1,15 @@
 //! The promise of a repair: nothing that `score` measures gets worse beyond a stated tolerance.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use crate::MotionScore;
-use crate::report::measures;
+use crate::measures::measures;
 
 /// How much a measure may grow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Name of the measure, as in [`measures`].
+    /// Name of the measure, as in [`crate::measures`].
     pub measure: &'static str,
     /// Part of the value before.
     pub relative: f64,
@@ -85,7 +86,7 @@ impl fmt::Display for Worse {
 /// All measures that are worse beyond their tolerance; a measure that is lost is worse.
 pub(super) fn broken(before: &MotionScore, after: &MotionScore) -> Vec<Worse> {
     let (before, after) = (measures(before), measures(after));
-    let value = |measures: &[(&'static str, f64)], name| {
+    let value = |measures: &[(Cow<'static, str>, f64)], name| {
         let found = measures.iter().find(|(measure, _)| *measure == name);
         found.map(|(_, value)| *value)
     };

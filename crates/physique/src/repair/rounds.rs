@@ -3,7 +3,6 @@
 use glam::DVec3;
 use physique_body::Joint;
 use physique_motion::Motion;
-use physique_physics::Support;
 use physique_physics::loss::{MotionSlices, sole_contacts};
 
 use super::change::{Source, UNKNOWNS};
@@ -13,15 +12,18 @@ use super::promise::{Worse, broken};
 use super::stiffness::Stiffness;
 use super::touch::Touches;
 use super::{Repaired, Repairer};
+use crate::series::SupportName;
 use crate::{Error, MotionScore};
 
 /// Frames with less than this are let be, in cm3: about what the scan's lines can tell.
 const CLEAN_CM3: f64 = 1.0;
-/// Faults weigh so much more from round to round.
+/// Self-intersection weighs so much more from round to round.
 const HARDER: f64 = 3.0;
-/// How much stiffer legs and pelvis are: if the promise holds the first attempt back, the second
-/// leaves them nearly alone.
-const BEARING: [f64; 2] = [1.0, 16.0];
+/// How much stiffer trunk and legs are. Arms get out of the way first: that leaves feet and balance
+/// alone. Only what they cannot mend is left to the whole body.
+const BEARING: [f64; 2] = [30.0, 1.0];
+/// Faults of less than this are not visible: no second attempt.
+const INVISIBLE: f64 = 0.3;
 /// Rounds go on while they mend more than this part of the faults.
 const WORTHWHILE: f64 = 0.02;
 /// A descent ends when a step gains less than this part of the cost.
@@ -86,15 +88,16 @@ impl<'a> Rounds<'a> {
             root: &start.root,
             betas: &[],
         };
-        let physics = repairer.physics_of(motion)?;
-        let grounded = physics.frames.iter().map(|frame| match frame.support {
-            Support::Flight => 0.0,
-            Support::Ground | Support::Nothing => 1.0,
+        let before = repairer.scorer.score(motion)?;
+        let support = before.series.as_ref().and_then(|series| series.support.as_ref());
+        let grounded = support.into_iter().flatten().map(|support| match support {
+            SupportName::Flight => 0.0,
+            SupportName::Ground | SupportName::Nothing => 1.0,
         });
         Ok(Self {
-            before: repairer.scorer.score(motion)?,
             touches: Touches::of(repairer.body(), &repairer.sphere_body, motion),
             grounded: grounded.collect(),
+            before,
             contacts: sole_contacts(&repairer.loss_body, &slices, 0.0)?,
             self_weights: vec![0.0; motion.frame_count()],
             repairer,
@@ -106,7 +109,6 @@ impl<'a> Rounds<'a> {
         mut self,
         mut progress: impl FnMut(usize, &MotionScore),
     ) -> Result<Repaired, Error> {
-        let motion = self.source.motion().clone();
         let mut taken = Taken {
             best: None,
             least: self.faults(&self.before),
@@ -115,9 +117,9 @@ impl<'a> Rounds<'a> {
         };
         for bearing in BEARING {
             self.self_weights.fill(0.0);
-            self.weigh_frames(&motion)?;
+            weigh_frames(&self.before, &mut self.self_weights);
             self.attempt(bearing, &mut taken, &mut progress)?;
-            if taken.held_back_by.is_empty() {
+            if taken.least < INVISIBLE {
                 break;
             }
         }
@@ -136,7 +138,7 @@ impl<'a> Rounds<'a> {
         let rate = self.source.motion().frame_rate();
         let stiffness = Stiffness::new(self.source.frame_count(), rate, bearing);
         let mut change = vec![0.0; self.source.unknowns()];
-        let mut strength = options.strength;
+        let mut self_strength = options.strength;
         for _ in 0..options.rounds {
             if taken.least <= 0.0 {
                 break;
@@ -150,30 +152,17 @@ impl<'a> Rounds<'a> {
                 self_weights: targets.self_intersection.then(|| self.self_weights.clone()),
                 grounded: targets.ground.then(|| self.grounded.clone()),
                 contacts: targets.feet.then(|| self.contacts.clone()),
-                strength,
+                self_strength,
+                strength: options.strength,
             };
             minimise(&objective, &mut change, options.steps, GAIN);
             let candidate = self.candidate(&change)?;
             taken.rounds += 1;
             progress(taken.rounds, &candidate.score);
-            self.weigh_frames(&candidate.motion)?;
-            strength *= HARDER;
+            weigh_frames(&candidate.score, &mut self.self_weights);
+            self_strength *= HARDER;
             if !taken.offer(candidate) {
                 break;
-            }
-        }
-        Ok(())
-    }
-
-    /// Frames whose surface intersects weigh more, others what they did.
-    fn weigh_frames(&mut self, motion: &Motion) -> Result<(), Error> {
-        if !self.repairer.options.targets.self_intersection {
-            return Ok(());
-        }
-        let frames = self.repairer.scorer.self_intersections(motion, |_| ())?;
-        for (weight, frame) in self.self_weights.iter_mut().zip(&frames) {
-            if frame.intersection_cm3 > CLEAN_CM3 {
-                *weight = (*weight * 2.0).max(1.0);
             }
         }
         Ok(())
@@ -200,14 +189,16 @@ impl<'a> Rounds<'a> {
         {
             faults += found.mean_cm3 / 5.0;
         }
-        if let Some(found) = &score.physics {
-            if targets.ground {
-                faults += found.ground.penetration_mean_cm / 0.3;
-                faults += found.ground.floating_mean_cm / 0.3;
-            }
-            if targets.feet {
-                faults += found.feet.slide_mean_cm_s / 2.0;
-            }
+        if targets.ground
+            && let Some(found) = &score.ground
+        {
+            faults += found.penetration_mean_cm / 0.3;
+            faults += found.floating_mean_cm / 0.3;
+        }
+        if targets.feet
+            && let Some(found) = &score.feet
+        {
+            faults += found.slide_mean_cm_s / 2.0;
         }
         faults
     }
@@ -216,14 +207,16 @@ impl<'a> Rounds<'a> {
         let best = taken.best;
         let turns = best.as_ref().map_or_else(Default::default, Turns::of);
         let changed = best.is_some();
-        let (motion, after) = match best {
+        let (motion, mut after) = match best {
             Some(best) => (best.motion, best.score),
             None => (self.source.motion().clone(), self.before.clone()),
         };
+        let mut before = self.before;
+        (before.series, after.series) = (None, None);
         Repaired {
             motion,
             after,
-            before: self.before,
+            before,
             changed,
             held_back_by: taken.held_back_by,
             rounds: taken.rounds,
@@ -231,6 +224,17 @@ impl<'a> Rounds<'a> {
             mean_turn_degrees: turns.mean.to_degrees(),
             greatest_turn_degrees: turns.greatest.to_degrees(),
             mean_displacement_cm: 100.0 * turns.displacement,
+        }
+    }
+}
+
+/// Frames whose surface intersects weigh more, others what they did.
+fn weigh_frames(score: &MotionScore, weights: &mut [f32]) {
+    let series = score.series.as_ref();
+    let volumes = series.and_then(|series| series.self_intersection_cm3.as_ref());
+    for (weight, &volume) in weights.iter_mut().zip(volumes.into_iter().flatten()) {
+        if volume > CLEAN_CM3 {
+            *weight = (*weight * 2.0).max(1.0);
         }
     }
 }

@@ -29,8 +29,7 @@ pub(super) struct Stiffness {
 }
 
 impl Stiffness {
-    /// For a motion of so many frames; what stands on the ground, legs and pelvis, is `bearing`
-    /// times stiffer.
+    /// For a motion of so many frames; all but arms, neck and head is `bearing` times stiffer.
     pub(super) fn new(frames: usize, rate: FrameRate, bearing: f64) -> Self {
         let matrix = matrix(frames, TIME * rate.per_second());
         Self {
@@ -102,8 +101,7 @@ impl Stiffness {
 fn scale(place: usize, bearing: f64) -> f64 {
     let weight = match Joint::from_index(place) {
         None => return 1.0 / (DISPLACEMENT * DISPLACEMENT),
-        Some(Joint::Pelvis) => TRUNK * bearing,
-        Some(Joint::Spine1 | Joint::Spine2 | Joint::Spine3) => TRUNK,
+        Some(Joint::Pelvis | Joint::Spine1 | Joint::Spine2 | Joint::Spine3) => TRUNK * bearing,
         Some(joint) if Joint::LEGS.iter().flatten().any(|&leg| leg == joint) => LEGS * bearing,
         Some(_) => 1.0,
     };
