@@ -16,11 +16,11 @@ use super::touch::Touches;
 const CM2: f64 = 1e4;
 /// A skin point 1 cm in the ground costs as much as so many pairs of spheres 1 cm deep. The losses
 /// are means over some hundred points of skin, of which only some can touch the ground.
-const PENETRATION: f64 = 100.0;
+const PENETRATION: f64 = 2000.0;
 /// Floating by 1 cm beyond the tolerance.
-const FLOATING: f64 = 2.0;
+const FLOATING: f64 = 20.0;
 /// A sole point that slides by 1 m/s.
-const SLIDING: f64 = 30.0;
+const SLIDING: f64 = 300.0;
 /// A gap that opens by 1 cm where hands touched.
 const TOUCH: f64 = 1.0;
 /// Slower sliding is hardly worth a change, in m/s.

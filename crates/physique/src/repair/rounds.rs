@@ -18,7 +18,7 @@ use crate::{Error, MotionScore};
 /// Frames with less than this are let be, in cm3: about what the scan's lines can tell.
 const CLEAN_CM3: f64 = 1.0;
 /// Self-intersection weighs so much more from round to round.
-const HARDER: f64 = 3.0;
+const HARDER: f64 = 2.0;
 /// How much stiffer trunk and legs are. Arms get out of the way first: that leaves feet and balance
 /// alone. Only what they cannot mend is left to the whole body.
 const BEARING: [f64; 2] = [30.0, 1.0];
@@ -153,7 +153,7 @@ impl<'a> Rounds<'a> {
                 grounded: targets.ground.then(|| self.grounded.clone()),
                 contacts: targets.feet.then(|| self.contacts.clone()),
                 self_strength,
-                strength: options.strength,
+                strength: self_strength,
             };
             minimise(&objective, &mut change, options.steps, GAIN);
             let candidate = self.candidate(&change)?;
