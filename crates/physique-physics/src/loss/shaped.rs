@@ -163,9 +163,12 @@ impl ShapedBody<'_> {
 
     /// A skin point in the world.
     pub(crate) fn posed_skin(&self, point: usize, world_from_rest: &[DMat4]) -> DVec3 {
-        let terms = self.body.skin[point].weights.iter().map(|&(joint, weight)| {
-            world_from_rest[joint].transform_point3(self.skin[point]) * weight
-        });
+        let terms = self.body.skin[point]
+            .weights
+            .iter()
+            .map(|&(joint, weight)| {
+                world_from_rest[joint].transform_point3(self.skin[point]) * weight
+            });
         terms.sum()
     }
 }

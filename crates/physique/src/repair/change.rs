@@ -1,6 +1,6 @@
 //! The unknowns of a repair: by how much every joint turns and the root moves, frame by frame.
 
-use glam::{DMat3, DQuat, DVec3, Mat3, Vec3};
+use glam::{DMat3, DQuat, DVec3, Mat3};
 use physique_body::Joint;
 use physique_motion::Motion;
 use physique_proxy::PoseMatrices;
@@ -32,7 +32,11 @@ impl Source {
         let rotations = motion.rotations().iter();
         Self {
             rotations: rotations.map(|q| q.as_dquat().normalize()).collect(),
-            root: motion.root_translation().iter().map(|v| v.as_dvec3()).collect(),
+            root: motion
+                .root_translation()
+                .iter()
+                .map(|v| v.as_dvec3())
+                .collect(),
             motion: motion.clone(),
         }
     }
@@ -65,7 +69,9 @@ impl Source {
                 changed.rotations.push(rotation);
             }
             changed.poses.push(pose);
-            changed.root.push(root + vector(change, frame, Joint::COUNT));
+            changed
+                .root
+                .push(root + vector(change, frame, Joint::COUNT));
         }
         changed
     }
@@ -81,10 +87,15 @@ impl Source {
                         self.rotation(change, frame, joint).as_quat();
                 }
             }
-            *translation += Vec3::from(vector(change, frame, Joint::COUNT).as_vec3());
+            *translation += vector(change, frame, Joint::COUNT).as_vec3();
         }
         let shape = self.motion.shape().cloned();
-        Ok(Motion::new(self.motion.frame_rate(), shape, root, rotations)?)
+        Ok(Motion::new(
+            self.motion.frame_rate(),
+            shape,
+            root,
+            rotations,
+        )?)
     }
 
     fn rotation(&self, change: &[f64], frame: usize, joint: usize) -> DQuat {
@@ -108,7 +119,10 @@ pub(super) fn add_turns(change: &[f64], turns: &[DVec3], gradient: &mut [f64]) {
             (0.5 - square / 24.0, 1.0 / 6.0 - square / 120.0)
         } else {
             let sine = angle.sin();
-            ((1.0 - angle.cos()) / square, (angle - sine) / (square * angle))
+            (
+                (1.0 - angle.cos()) / square,
+                (angle - sine) / (square * angle),
+            )
         };
         let across = w.cross(turn);
         let by_vector = turn - across * a + w.cross(across) * b;

@@ -38,7 +38,7 @@ pub(super) fn minimise(cost: &impl Cost, at: &mut [f64], steps: usize, tolerance
             cost.precondition(&mut direction);
             slope = -dot(&gradient, &direction);
         }
-        if !(slope < 0.0) {
+        if slope >= 0.0 || slope.is_nan() {
             break;
         }
         let mut length = 1.0;
@@ -147,6 +147,9 @@ mod tests {
         let mut at = [-1.2, 1.0];
         let value = minimise(&Valley, &mut at, 200, 0.0);
         assert!(value < 1e-12, "{value} at {at:?}");
-        assert!((at[0] - 1.0).abs() < 1e-5 && (at[1] - 1.0).abs() < 1e-5, "{at:?}");
+        assert!(
+            (at[0] - 1.0).abs() < 1e-5 && (at[1] - 1.0).abs() < 1e-5,
+            "{at:?}"
+        );
     }
 }

@@ -77,12 +77,19 @@ impl Objective<'_> {
         let Some(weights) = &self.self_weights else {
             return Part::default();
         };
-        let weights: Vec<_> = weights.iter().map(|w| w * (CM2 * self.self_strength) as f32).collect();
+        let weights: Vec<_> = weights
+            .iter()
+            .map(|w| w * (CM2 * self.self_strength) as f32)
+            .collect();
         let frames = changed.poses.len();
         let mut losses = vec![0.0; frames];
         let mut by_poses: Vec<PoseMatrices> = vec![Default::default(); frames];
         let (poses, by) = (&changed.poses, &mut by_poses);
-        if self.spheres.gradient(poses, &weights, &mut losses, by).is_err() {
+        if self
+            .spheres
+            .gradient(poses, &weights, &mut losses, by)
+            .is_err()
+        {
             // Rotations that are no numbers: a step that the search takes back.
             return Part {
                 cost: f64::INFINITY,
@@ -116,7 +123,13 @@ impl Objective<'_> {
                 grounded,
                 ..Floating::default()
             };
-            self.add(changed, rate, &Penetration::default(), PENETRATION, &mut part);
+            self.add(
+                changed,
+                rate,
+                &Penetration::default(),
+                PENETRATION,
+                &mut part,
+            );
             self.add(changed, rate, &floating, FLOATING, &mut part);
         }
         if let Some(contacts) = &self.contacts {

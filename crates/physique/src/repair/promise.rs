@@ -56,8 +56,7 @@ impl Tolerance {
     fn is_broken(&self, before: f64, after: f64) -> bool {
         let sign = if self.greater_is_better { -1.0 } else { 1.0 };
         let worse = sign * (after - before);
-        // Not `>`: what is not a number breaks the promise.
-        !(worse <= self.relative * before.abs() + self.absolute)
+        worse.is_nan() || worse > self.relative * before.abs() + self.absolute
     }
 }
 

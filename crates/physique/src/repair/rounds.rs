@@ -89,7 +89,10 @@ impl<'a> Rounds<'a> {
             betas: &[],
         };
         let before = repairer.scorer.score(motion)?;
-        let support = before.series.as_ref().and_then(|series| series.support.as_ref());
+        let support = before
+            .series
+            .as_ref()
+            .and_then(|series| series.support.as_ref());
         let grounded = support.into_iter().flatten().map(|support| match support {
             SupportName::Flight => 0.0,
             SupportName::Ground | SupportName::Nothing => 1.0,

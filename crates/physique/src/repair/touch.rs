@@ -54,11 +54,12 @@ impl Touches {
             .map(|frame| touches.pose(motion, frame))
             .collect();
         for frame in 0..motion.frame_count() {
-            let nearest = |side: usize| {
-                touches.nearest(&posed[frame], &hands[side], &others[side])
-            };
+            let nearest = |side: usize| touches.nearest(&posed[frame], &hands[side], &others[side]);
             let found = [nearest(0), nearest(1)];
-            let neighbours = [&posed[frame.saturating_sub(1)], &posed[(frame + 1).min(posed.len() - 1)]];
+            let neighbours = [
+                &posed[frame.saturating_sub(1)],
+                &posed[(frame + 1).min(posed.len() - 1)],
+            ];
             let contacts = found.into_iter().flatten().filter(|contact| {
                 let [hand, other] = contact.spheres;
                 let apart = neighbours.map(|centres| centres[hand] - centres[other]);
@@ -71,7 +72,10 @@ impl Touches {
 
     /// Number of frames in which a hand touches something.
     pub(super) fn frames(&self) -> usize {
-        self.contacts.iter().filter(|found| !found.is_empty()).count()
+        self.contacts
+            .iter()
+            .filter(|found| !found.is_empty())
+            .count()
     }
 
     /// Squared widening of all gaps, in m2; adds `weight` times its derivatives by small turns
@@ -132,7 +136,9 @@ impl Touches {
     }
 
     fn nearest(&self, centres: &[DVec3], hand: &[usize], others: &[usize]) -> Option<Contact> {
-        let pairs = hand.iter().flat_map(|&a| others.iter().map(move |&b| [a, b]));
+        let pairs = hand
+            .iter()
+            .flat_map(|&a| others.iter().map(move |&b| [a, b]));
         let contacts = pairs.map(|spheres| {
             let [a, b] = spheres;
             let touching = self.spheres[a].radius + self.spheres[b].radius;
@@ -154,7 +160,9 @@ impl Sphere {
         Self {
             rest: spheres.centres[sphere].as_dvec3(),
             radius: f64::from(spheres.radii[sphere]),
-            follows: row.map(|&(joint, weight)| (joint.into(), weight.into())).collect(),
+            follows: row
+                .map(|&(joint, weight)| (joint.into(), weight.into()))
+                .collect(),
         }
     }
 
@@ -167,7 +175,8 @@ impl Sphere {
 
 fn spheres_of(spheres: &SphereBody, wanted: impl Fn(Joint) -> bool) -> Vec<usize> {
     let all = 0..spheres.sphere_count();
-    all.filter(|&sphere| wanted(spheres.dominant_joint(sphere))).collect()
+    all.filter(|&sphere| wanted(spheres.dominant_joint(sphere)))
+        .collect()
 }
 
 /// Speed of a difference, from its values a frame before and after, where these exist.
