@@ -1,6 +1,12 @@
 //! The table of attacks in `docs/safety.md`: every test writes its own part when
 //! `PHYSIQUE_WRITE_SAFETY` is set, and otherwise compares what happened with what stands there.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "a test that cannot go on says where"
+)]
+
 use std::time::Duration;
 use std::{env, fs};
 

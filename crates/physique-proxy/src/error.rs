@@ -164,6 +164,14 @@ pub enum Error {
         /// What is wrong with it.
         problem: Box<physique_files::Error>,
     },
+    /// A proxy file whose parts are sound, but make no proxy.
+    #[error("Proxy file {file}: {problem}")]
+    ProxyParts {
+        /// The file.
+        file: String,
+        /// What does not fit.
+        problem: Box<Error>,
+    },
     /// A size that is not embedded.
     #[error("Embedded proxies: expected 128, 192 or 256 spheres, found {found}.")]
     NoOpenProxy {
@@ -175,5 +183,21 @@ pub enum Error {
 impl From<physique_motion::Error> for Error {
     fn from(error: physique_motion::Error) -> Self {
         Self::Motion(Box::new(error))
+    }
+}
+
+impl Error {
+    /// The error with the file that it comes from, unless it names one already.
+    pub(crate) fn in_proxy_file(self, file: &str) -> Self {
+        match self {
+            Self::File(_)
+            | Self::ProxyFile { .. }
+            | Self::ProxyContent { .. }
+            | Self::ProxyParts { .. } => self,
+            problem => Self::ProxyParts {
+                file: file.to_owned(),
+                problem: Box::new(problem),
+            },
+        }
     }
 }

@@ -11,6 +11,7 @@ use physique_files::{named_arrays, read_file};
 use super::ProxyLimits;
 use super::read::blend_rows;
 use crate::regressor::NetworkLayout;
+use crate::sphere_proxy::BlendRow;
 use crate::{Error, JointRegressor, PairChoice, Pairs, SphereProxy, SphereRegressor};
 
 const SPHERES: &str = "SR/sphere_regressor.pth";
@@ -29,40 +30,66 @@ const EXCLUDED: [&str; 2] = ["coll_mat_1jd90.npy", "coll_mat_1j.npy"];
 /// [`Error::File`]; [`Error::ProxyContent`] for a broken file; [`Error::ProxyFile`] with the array
 /// that is missing or does not fit.
 pub fn read_published(folder: &Path, limits: &ProxyLimits) -> Result<SphereProxy, Error> {
-    let spheres = Arrays::read(&folder.join(SPHERES), limits)?;
-    let [width, betas] = spheres.shape("net1.0.weight_v")?;
-    let [outputs] = spheres.shape("net2.8.bias")?;
+    // Each file is let go before the next one is read.
+    read_parts(folder, limits)
+        .map_err(|problem| problem.in_proxy_file(&folder.display().to_string()))
+}
+
+fn read_parts(folder: &Path, limits: &ProxyLimits) -> Result<SphereProxy, Error> {
+    let spheres = sphere_regressor(&folder.join(SPHERES), limits)?;
+    let joints = joint_regressor(&folder.join(JOINTS), limits)?;
+    let count = spheres.sphere_count();
+    let blend_weights = blend_weights(&folder.join(BLEND_WEIGHTS), count, limits)?;
+    let [all, of_one_joint] = EXCLUDED.map(|name| folder.join(name));
+    let path = if all.exists() { all } else { of_one_joint };
+    let pairs = PairChoice::Chosen(pairs_but(&path, count, limits)?);
+    let notes = BTreeMap::from([("source".to_owned(), folder.display().to_string())]);
+    SphereProxy::new(spheres, joints, blend_weights, pairs, notes)
+}
+
+fn sphere_regressor(path: &Path, limits: &ProxyLimits) -> Result<SphereRegressor, Error> {
+    let arrays = Arrays::read(path, limits)?;
+    let [width, betas] = arrays.shape("net1.0.weight_v")?;
+    let [outputs] = arrays.shape("net2.8.bias")?;
     let count = outputs / 4;
     if outputs % 4 != 0 || count > limits.spheres {
         let expected = format!("4 values a sphere, at most {} spheres", limits.spheres);
-        return Err(spheres.refuse("net2.8.bias", expected, outputs.to_string()));
+        return Err(arrays.refuse("net2.8.bias", expected, outputs.to_string()));
     }
-    let layout = SphereRegressor::layout(betas, width, count)?;
-    let parameters = spheres.parameters(&layout, limits)?;
-    let sphere_regressor = SphereRegressor::new(layout, parameters)?;
+    let layout = SphereRegressor::layout(betas, width, count);
+    let layout = layout.map_err(|problem| problem.in_proxy_file(&arrays.file))?;
+    let parameters = arrays.parameters(&layout, limits)?;
+    SphereRegressor::new(layout, parameters).map_err(|problem| problem.in_proxy_file(&arrays.file))
+}
 
-    let joints = Arrays::read(&folder.join(JOINTS), limits)?;
-    let [width, betas] = joints.shape("linear_stack.0.weight")?;
-    let layout = JointRegressor::layout(betas, width)?;
-    let parameters = joints.parameters(&layout, limits)?;
-    let joint_regressor = JointRegressor::new(layout, parameters)?;
+fn joint_regressor(path: &Path, limits: &ProxyLimits) -> Result<JointRegressor, Error> {
+    let arrays = Arrays::read(path, limits)?;
+    let [width, betas] = arrays.shape("linear_stack.0.weight")?;
+    let layout = JointRegressor::layout(betas, width);
+    let layout = layout.map_err(|problem| problem.in_proxy_file(&arrays.file))?;
+    let parameters = arrays.parameters(&layout, limits)?;
+    JointRegressor::new(layout, parameters).map_err(|problem| problem.in_proxy_file(&arrays.file))
+}
 
-    let weights = Arrays::read(&folder.join(BLEND_WEIGHTS), limits)?;
-    let weights_file = weights.file.clone();
-    let weights = weights.floats("array", &[count, Joint::COUNT])?;
-
-    let [all, of_one_joint] = EXCLUDED.map(|name| folder.join(name));
-    let path = if all.exists() { all } else { of_one_joint };
-    let excluded = Arrays::read(&path, limits)?;
-    let excluded = excluded.floats("array", &[count, count])?;
-    let kept = |i: usize, j: usize| excluded[i * count + j] == 0.0;
-    SphereProxy::new(
-        sphere_regressor,
-        joint_regressor,
-        blend_rows(&weights_file, &weights)?,
-        PairChoice::Chosen(Pairs::all(count)?.filtered(kept)),
-        BTreeMap::from([("source".to_owned(), folder.display().to_string())]),
+fn blend_weights(path: &Path, count: usize, limits: &ProxyLimits) -> Result<Vec<BlendRow>, Error> {
+    let arrays = Arrays::read(path, limits)?;
+    blend_rows(
+        &arrays.file,
+        &arrays.floats("array", &[count, Joint::COUNT])?,
     )
+}
+
+/// All pairs of spheres but those that a matrix marks.
+fn pairs_but(path: &Path, count: usize, limits: &ProxyLimits) -> Result<Pairs, Error> {
+    let arrays = Arrays::read(path, limits)?;
+    let excluded = arrays.floats("array", &[count, count])?;
+    if let Some(bad) = excluded.iter().position(|mark| !mark.is_finite()) {
+        let place = format!("row {}, column {}", bad / count, bad % count);
+        let found = excluded[bad].to_string();
+        return Err(arrays.refuse(&place, "a finite number".into(), found));
+    }
+    let kept = |i: usize, j: usize| excluded[i * count + j] == 0.0;
+    Ok(Pairs::all(count)?.filtered(kept))
 }
 
 /// The arrays of one file.
@@ -79,7 +106,11 @@ impl Arrays {
             bytes: limits.bytes,
             ..ArrayLimits::default()
         };
-        match named_arrays(bytes, &array_limits, &PickleLimits::default()) {
+        let pickle_limits = PickleLimits {
+            bytes: limits.bytes,
+            ..PickleLimits::default()
+        };
+        match named_arrays(bytes, &array_limits, &pickle_limits) {
             Ok(arrays) => Ok(Self { file, arrays }),
             Err(problem) => Err(Error::ProxyContent {
                 file,
@@ -126,7 +157,8 @@ impl Arrays {
             let found = layout.parameter_count().to_string();
             return Err(self.refuse("the whole file", expected, found));
         }
-        let mut parameters = Vec::with_capacity(layout.parameter_count());
+        // Two small arrays may promise a large network: memory grows with what is there.
+        let mut parameters = Vec::new();
         for parameter in layout.parameters() {
             parameters.extend(self.floats(&parameter.name, &parameter.shape)?);
         }

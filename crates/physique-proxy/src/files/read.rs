@@ -9,7 +9,7 @@ use physique_files::read_file;
 use safetensors::{Dtype, SafeTensors, tensor::TensorView};
 
 use super::{BLEND_WEIGHTS, CHOSEN, FORMAT, JOINTS, ProxyLimits, SPHERES, STATISTICS};
-use crate::regressor::NetworkLayout;
+use crate::regressor::{NetworkLayout, Parameter};
 use crate::sphere_proxy::BlendRow;
 use crate::{
     Error, JointRegressor, PairChoice, PairStatistics, Pairs, SphereProxy, SphereRegressor,
@@ -30,11 +30,15 @@ pub fn read_proxy(path: &Path, limits: &ProxyLimits) -> Result<SphereProxy, Erro
 /// # Errors
 /// As [`read_proxy`].
 pub fn parse_proxy(file: &str, bytes: &[u8], limits: &ProxyLimits) -> Result<SphereProxy, Error> {
-    let reader = Reader { file, limits };
-    let whole = "the whole file";
+    parse(&Reader { file, limits }, bytes).map_err(|problem| problem.in_proxy_file(file))
+}
+
+fn parse(reader: &Reader<'_>, bytes: &[u8]) -> Result<SphereProxy, Error> {
+    let (file, limits) = (reader.file, reader.limits);
     let sound = |error: safetensors::SafeTensorError| {
-        reader.refuse(whole, "a .safetensors file", error.to_string())
+        reader.refuse("the whole file", "a .safetensors file", error.to_string())
     };
+    reader.check_header(bytes)?;
     let (_, header) = SafeTensors::read_metadata(bytes).map_err(sound)?;
     let tensors = SafeTensors::deserialize(bytes).map_err(sound)?;
     let told = header.metadata().as_ref().and_then(|all| all.get("proxy"));
@@ -74,9 +78,15 @@ pub fn parse_proxy(file: &str, bytes: &[u8], limits: &ProxyLimits) -> Result<Sph
         return Err(reader.refuse("the regressors", &expected, count.to_string()));
     }
     let parameters = |layout: &NetworkLayout, prefix: &str| {
+        let name = |parameter: &Parameter| format!("{prefix}{}", parameter.name);
+        // Two small arrays may promise a large network: all of it must be there first.
+        for parameter in layout.parameters() {
+            let name = name(parameter);
+            reader.check_shape(&name, &array(&name)?, &parameter.shape)?;
+        }
         let mut parameters = Vec::with_capacity(layout.parameter_count());
         for parameter in layout.parameters() {
-            let name = format!("{prefix}{}", parameter.name);
+            let name = name(parameter);
             parameters.extend(reader.floats(&name, &array(&name)?, &parameter.shape)?);
         }
         Ok::<_, Error>(parameters)
@@ -87,6 +97,10 @@ pub fn parse_proxy(file: &str, bytes: &[u8], limits: &ProxyLimits) -> Result<Sph
     let shape = [spheres, Joint::COUNT];
     let weights = reader.floats(BLEND_WEIGHTS, &array(BLEND_WEIGHTS)?, &shape)?;
     let pairs = if let Ok(chosen) = tensors.tensor(CHOSEN) {
+        let [_, 2] = reader.shape(CHOSEN, &chosen)? else {
+            let found = format!("shape {:?}", chosen.shape());
+            return Err(reader.refuse(CHOSEN, "shape [pairs, 2]", found));
+        };
         let numbers = reader.integers(CHOSEN, &chosen)?;
         let numbers = numbers.as_chunks::<2>().0.iter();
         let pairs = numbers.map(|&[i, j]| (i as usize, j as usize));
@@ -164,16 +178,40 @@ impl Reader<'_> {
         })
     }
 
+    /// Refuses headers far longer than those of proxies, which take several times their size
+    /// when they are parsed.
+    fn check_header(&self, bytes: &[u8]) -> Result<(), Error> {
+        const LONGEST: u64 = 1 << 20;
+        let length = bytes
+            .first_chunk()
+            .map_or(0, |&all| u64::from_le_bytes(all));
+        if length <= LONGEST {
+            return Ok(());
+        }
+        let expected = format!("at most {LONGEST} bytes of a .safetensors file's");
+        Err(self.refuse("its header", &expected, length.to_string()))
+    }
+
+    fn check_shape(
+        &self,
+        name: &str,
+        tensor: &TensorView<'_>,
+        shape: &[usize],
+    ) -> Result<(), Error> {
+        if tensor.shape() == shape {
+            return Ok(());
+        }
+        let found = format!("{:?}", tensor.shape());
+        Err(self.refuse(name, &format!("shape {shape:?}"), found))
+    }
+
     fn floats(
         &self,
         name: &str,
         tensor: &TensorView<'_>,
         shape: &[usize],
     ) -> Result<Vec<f32>, Error> {
-        if tensor.shape() != shape {
-            let found = format!("{:?}", tensor.shape());
-            return Err(self.refuse(name, &format!("shape {shape:?}"), found));
-        }
+        self.check_shape(name, tensor, shape)?;
         let bytes = tensor.data();
         match tensor.dtype() {
             Dtype::F32 => Ok(words(bytes).map(f32::from_le_bytes).collect()),

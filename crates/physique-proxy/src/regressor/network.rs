@@ -171,13 +171,24 @@ impl Network {
             parameters,
         };
         network.refresh();
-        if network.weights.iter().all(|weight| weight.is_finite()) {
+        let weights = network.weights.iter().all(|weight| weight.is_finite());
+        if weights && network.has_directions() {
             return Ok(network);
         }
         Err(Error::Regressor {
             array: "weight_v".into(),
             expected: "rows of a length above 0".into(),
             found: "a row of zeros, or of numbers too large to square".into(),
+        })
+    }
+
+    /// Whether all rows of directions have a length that can be told.
+    fn has_directions(&self) -> bool {
+        let layers = self.layout.layers.iter();
+        let mut normalised = layers.filter(|layer| layer.gain.is_some());
+        normalised.all(|layer| {
+            let mut rows = self.parameters[layer.weight.clone()].chunks_exact(layer.inputs);
+            rows.all(|row| (f32::MIN_POSITIVE..f32::INFINITY).contains(&length(row)))
         })
     }
 
