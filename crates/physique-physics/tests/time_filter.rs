@@ -1,4 +1,5 @@
 //! Time filters: exact for the polynomials they fit, and of the stated response at any frame rate.
+
 use std::f64::consts::PI;
 
 use physique_motion::FrameRate;
