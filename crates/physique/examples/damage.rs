@@ -10,23 +10,13 @@ use glam::{Quat, Vec3};
 use physique::body::{Attributes, Body, Joint, Sex, open_body};
 use physique::load::{LoadOptions, load};
 use physique::motion::{FrameRate, Motion};
-use physique::physics::{Physics, PhysicsMeasures, PhysicsOptions};
+use physique::physics::{Physics, PhysicsOptions};
+
+use support::{MEASURES, measured, median};
+
+mod support;
 
 type Failure = Box<dyn std::error::Error>;
-
-const MEASURES: [&str; 11] = [
-    "in ground, cm",
-    "floating, cm",
-    "unsupported, %",
-    "flight, %",
-    "sliding, cm/s",
-    "inside, %",
-    "outside, cm",
-    "margin, cm",
-    "acceleration, m/s²",
-    "jerk, m/s³",
-    "jitter, mm",
-];
 
 fn main() -> Result<(), Failure> {
     let body = Body::mean(open_body()?, Sex::Neutral)?;
@@ -120,27 +110,4 @@ fn trembling(motion: &Motion, angle: f32) -> Result<Motion, Failure> {
     let rotations = rotations.collect();
     let roots = motion.root_translation().to_vec();
     Ok(Motion::new(motion.frame_rate(), None, roots, rotations)?)
-}
-
-fn measured(found: &PhysicsMeasures) -> [Option<f64>; MEASURES.len()] {
-    let (balance, smooth) = (found.balance.measured, found.smoothness);
-    [
-        Some(100.0 * found.ground.penetration_mean_m),
-        Some(100.0 * found.ground.floating_mean_m),
-        Some(found.ground.unsupported_frames_percent),
-        Some(found.ground.flight_frames_percent),
-        Some(100.0 * found.feet.slide_mean_m_s),
-        balance.map(|balance| balance.stable_percent),
-        balance.map(|balance| 100.0 * balance.outside_mean_m),
-        balance.map(|balance| 100.0 * balance.margin_mean_m),
-        smooth.map(|smooth| smooth.acceleration_mean_m_s2),
-        smooth.map(|smooth| smooth.jerk_mean_m_s3),
-        smooth.map(|smooth| 1000.0 * smooth.jitter_mean_m),
-    ]
-}
-
-/// NaN of nothing.
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
