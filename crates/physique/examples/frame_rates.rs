@@ -8,7 +8,7 @@ use std::path::Path;
 
 use physique::body::{Body, Sex, open_body};
 use physique::load::{LoadOptions, load};
-use physique::motion::FrameRate;
+use physique::motion::{FrameRate, Motion};
 use physique::physics::{Physics, PhysicsOptions};
 
 use support::{MEASURES, measured, median};
@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut clips = 0;
     for file in std::env::args().skip(1) {
         let recorded = load(Path::new(&file), &body, &LoadOptions::default())?.motion;
-        let measure = |motion| physics.measure(motion, &PhysicsOptions::default());
+        let measure = |motion: &Motion| physics.measure(motion, &PhysicsOptions::default());
         let mut by_rate = vec![measured(&measure(&recorded)?)];
         for fps in LOWER_RATES {
             let resampled = recorded.resampled(FrameRate::new(fps)?)?;
