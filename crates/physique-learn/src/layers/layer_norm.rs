@@ -1,0 +1,35 @@
+//! `torch.nn.LayerNorm`.
+
+use burn::module::{Module, Param};
+use burn::tensor::{Tensor, module::layer_norm};
+
+use super::Initialiser;
+
+/// What PyTorch adds to the variance.
+const EPSILON: f64 = 1e-5;
+
+/// Each vector of the last dimension with mean 0 and variance 1, then scaled and shifted.
+///
+/// Ba, Kiros and Hinton, "Layer Normalization", 2016.
+#[derive(Module, Debug)]
+pub struct LayerNorm {
+    /// `[width]`.
+    weight: Param<Tensor<1>>,
+    /// `[width]`.
+    bias: Param<Tensor<1>>,
+}
+
+impl LayerNorm {
+    /// A new layer, which neither scales nor shifts.
+    pub fn new(width: usize, initialiser: &Initialiser) -> Self {
+        Self {
+            weight: initialiser.constant([width], 1.0),
+            bias: initialiser.constant([width], 0.0),
+        }
+    }
+
+    /// `[..][width]` to the same shape.
+    pub fn forward<const D: usize>(&self, x: Tensor<D>) -> Tensor<D> {
+        layer_norm(x, self.weight.val(), Some(self.bias.val()), EPSILON)
+    }
+}

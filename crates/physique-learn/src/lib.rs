@@ -1,0 +1,30 @@
+//! Networks that generate human motion, trained, sampled and evaluated on Burn.
+//!
+//! | what | where |
+//! |---|---|
+//! | the motion diffusion model | [`mdm`] |
+//! | denoising diffusion: schedules, sampling, guidance, editing | [`diffusion`] |
+//! | the published evaluation: networks and metrics | [`evaluation`] |
+//! | captions as numbers | [`text`] |
+//! | layers with PyTorch's parameter names | [`layers`] |
+//! | a network's numbers by name, strictly loaded | [`parameters`] |
+//! | PyTorch's checkpoints as data, and our own files | [`checkpoint`] |
+//! | training that can be killed and goes on | [`trainer`] |
+//! | random numbers that depend on their seed only | [`random`] |
+//!
+//! Motions are tensors `[batch][frames][columns]` of features that are normalised by
+//! [`FeatureStatistics`](physique_motion::features::FeatureStatistics).
+
+pub mod checkpoint;
+pub mod diffusion;
+pub mod error;
+pub mod evaluation;
+pub mod layers;
+pub mod mdm;
+pub mod parameters;
+pub mod random;
+mod tensors;
+pub mod text;
+pub mod trainer;
+
+pub use error::Error;

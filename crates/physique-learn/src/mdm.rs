@@ -1,0 +1,19 @@
+//! The motion diffusion model: Tevet et al., "Human Motion Diffusion Model", ICLR 2023.
+//!
+//! A transformer sees noisy features of a motion, the step of diffusion and what the motion is to
+//! be, and predicts the clean features. [`Mdm`] is the network, [`MdmConfig`] its shape,
+//! [`Condition`] what a batch is to be; [`read_published`] reads published checkpoints.
+
+mod condition;
+mod config;
+pub mod losses;
+mod network;
+mod published;
+mod time_embedding;
+mod training;
+
+pub use condition::Condition;
+pub use config::{Architecture, ConditionKind, MdmConfig};
+pub use network::{Mdm, MdmQuery};
+pub use published::{PublishedArguments, from_parameters, parameters_of, read_published};
+pub use training::{MdmTask, MdmTraining};

@@ -1,0 +1,212 @@
+//! A motion diffusion model as a task for the trainer.
+
+use burn::tensor::{Device, Tensor};
+use physique_motion::features::FeatureLayout;
+use physique_motion::features::FeatureStatistics;
+use serde::{Deserialize, Serialize};
+
+use super::losses::{FrameMask, squared_error, velocity_error};
+use super::{Condition, Mdm, MdmQuery};
+use crate::Error;
+use crate::diffusion::Schedule;
+use crate::layers::Dropout;
+use crate::random::Random;
+use crate::tensors::tensor;
+use crate::trainer::{BatchCondition, Loss, MotionSource, Task};
+
+/// Told apart from all other uses of a seed.
+const PURPOSE: u64 = 0x006D_646D_6D64;
+
+/// How a motion diffusion model is trained. The default is as published.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct MdmTraining {
+    /// Motions a step.
+    pub batch: usize,
+    /// Steps of diffusion.
+    pub diffusion_steps: usize,
+    /// Factor of the signal-to-noise ratio of every step, see [`Schedule::with_signal`].
+    pub signal: f64,
+    /// Share of motions that are learnt without their condition, for classifier-free guidance.
+    pub unconditioned: f64,
+    /// Weight of the squared error in the root's four columns, where that of all others is 1.
+    pub root_weight: f64,
+    /// Weight of the squared error of how joints' positions change from frame to frame, measured
+    /// in deviations of their velocities.
+    pub velocity_weight: f64,
+}
+
+impl Default for MdmTraining {
+    fn default() -> Self {
+        Self {
+            batch: 64,
+            diffusion_steps: 1000,
+            signal: 1.0,
+            unconditioned: 0.1,
+            root_weight: 1.0,
+            velocity_weight: 0.0,
+        }
+    }
+}
+
+impl MdmTraining {
+    /// The schedule of diffusion.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for steps or a signal that cannot be.
+    pub fn schedule(&self) -> Result<Schedule, Error> {
+        Schedule::cosine(self.diffusion_steps)?.with_signal(self.signal)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        if self.batch == 0 {
+            return Err(Error::setting("batch", "1 or more", self.batch));
+        }
+        if !(0.0..=1.0).contains(&self.unconditioned) {
+            return Err(Error::setting(
+                "unconditioned",
+                "0 to 1",
+                self.unconditioned,
+            ));
+        }
+        for (what, found) in [
+            ("root_weight", self.root_weight),
+            ("velocity_weight", self.velocity_weight),
+        ] {
+            if !(found.is_finite() && found >= 0.0) {
+                return Err(Error::setting(what, "a finite number from 0", found));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Trains a motion diffusion model on motions.
+#[derive(Debug)]
+pub struct MdmTask<S> {
+    source: S,
+    training: MdmTraining,
+    schedule: Schedule,
+    layout: FeatureLayout,
+    /// Deviations of joints' positions over those of their velocities.
+    velocity_factor: f64,
+    device: Device,
+}
+
+/// Motions of a step with noise, and what there is to know of them.
+struct Noised {
+    clean: Tensor<3>,
+    noisy: Tensor<3>,
+    steps: Vec<usize>,
+    conditioned: Vec<bool>,
+}
+
+impl<S: MotionSource> MdmTask<S> {
+    /// A task on a device, which must differentiate; `statistics` are those that the source's
+    /// motions are normalised by.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for settings that cannot be; [`Error::Input`] when source and statistics
+    /// are of different features.
+    pub fn new(
+        source: S,
+        statistics: &FeatureStatistics,
+        training: MdmTraining,
+        device: &Device,
+    ) -> Result<Self, Error> {
+        training.check()?;
+        let columns = statistics.mean().len();
+        if source.columns() != columns {
+            let expected = format!("{columns} columns, as of the statistics");
+            return Err(Error::input("Motions", expected, source.columns()));
+        }
+        let layout = FeatureLayout::of(statistics.skeleton());
+        let deviation = |column: usize| f64::from(statistics.deviation()[column]);
+        Ok(Self {
+            velocity_factor: deviation(layout.positions.start) / deviation(layout.velocities.start),
+            schedule: training.schedule()?,
+            layout,
+            training,
+            source,
+            device: device.clone(),
+        })
+    }
+
+    /// Draws a step of diffusion, noise, and whether the condition counts, for each motion: each
+    /// from a stream of its own.
+    fn noised(&self, features: Vec<f32>, shape: [usize; 3], path: [u64; 2]) -> Noised {
+        let [batch, frames, columns] = shape;
+        let (mut steps, mut conditioned, mut factors) = (Vec::new(), Vec::new(), [vec![], vec![]]);
+        let mut noise = vec![0.0; features.len()];
+        for (motion, noise) in noise.chunks_exact_mut(frames * columns).enumerate() {
+            let mut random = Random::new(&[PURPOSE, path[0], path[1], motion as u64]);
+            let step = random.below(self.schedule.len());
+            conditioned.push(random.unit() >= self.training.unconditioned);
+            random.fill_normal(noise);
+            let kept = self.schedule.kept()[step];
+            factors[0].push(kept.sqrt() as f32);
+            factors[1].push((1.0 - kept).sqrt() as f32);
+            steps.push(step);
+        }
+        let [signal, spread] = factors.map(|factors| tensor(factors, [batch, 1, 1], &self.device));
+        let clean = tensor(features, shape, &self.device);
+        let noise = tensor(noise, shape, &self.device);
+        Noised {
+            noisy: clean.clone() * signal + noise * spread,
+            clean,
+            steps,
+            conditioned,
+        }
+    }
+
+    /// `[1][1][columns]`: what columns weigh; `None` where all weigh 1.
+    fn column_weights(&self) -> Option<Tensor<3>> {
+        let weight = self.training.root_weight;
+        if weight == 1.0 {
+            return None;
+        }
+        let columns = self.source.columns();
+        let mut weights = vec![1.0; columns];
+        weights[..=self.layout.root_height].fill(weight as f32);
+        Some(tensor(weights, [1, 1, columns], &self.device))
+    }
+}
+
+impl<S: MotionSource> Task for MdmTask<S> {
+    type Network = Mdm;
+
+    fn loss(&self, network: &Mdm, seed: u64, step: u64) -> Result<Loss, Error> {
+        let batch = self.source.batch(self.training.batch, seed, step)?;
+        let columns = self.source.columns();
+        batch.check(columns)?;
+        let condition = match &batch.condition {
+            BatchCondition::Nothing => Condition::Nothing,
+            BatchCondition::Text(embeddings) => Condition::text(embeddings, &self.device)?,
+            BatchCondition::Actions(actions) => Condition::Actions(actions.clone()),
+        };
+        let shape = [batch.lengths.len(), batch.frames, columns];
+        let noised = self.noised(batch.features, shape, [seed, step]);
+        let query = MdmQuery {
+            noisy: noised.noisy,
+            steps: &noised.steps,
+            condition: &condition,
+            conditioned: Some(&noised.conditioned),
+            lengths: Some(&batch.lengths),
+        };
+        let dropout = Dropout::training(network.config().dropout, seed, step);
+        let predicted = network.forward(query, &dropout)?;
+
+        let mask = FrameMask::new(&batch.lengths, batch.frames, &noised.clean);
+        let weights = self.column_weights();
+        let error = squared_error(predicted.clone(), noised.clean.clone(), &mask, weights).mean();
+        let mut parts = vec![("squared_error", error.clone())];
+        let mut total = error;
+        if self.training.velocity_weight > 0.0 {
+            let (columns, factor) = (self.layout.positions.clone(), self.velocity_factor);
+            let error = velocity_error(predicted, noised.clean, &mask, columns, factor)?.mean();
+            total = total + error.clone() * self.training.velocity_weight;
+            parts.push(("velocity_error", error));
+        }
+        Ok(Loss { total, parts })
+    }
+}

@@ -1,0 +1,117 @@
+//! The optimiser.
+
+use std::collections::BTreeMap;
+
+use burn::module::Module;
+use burn::tensor::Tensor;
+use serde::{Deserialize, Serialize};
+
+use super::gradient::{NamedGradients, update};
+use crate::Error;
+
+/// Settings of [`AdamW`]; the default is PyTorch's but for the rate and the decay, which are MDM's.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct AdamWConfig {
+    /// Learning rate.
+    pub rate: f64,
+    /// Decay of the mean of gradients.
+    pub beta1: f64,
+    /// Decay of the mean of their squares.
+    pub beta2: f64,
+    /// Added to the root of the squares.
+    pub epsilon: f64,
+    /// Share of itself, times the rate, that a parameter loses in a step.
+    pub weight_decay: f64,
+}
+
+impl Default for AdamWConfig {
+    fn default() -> Self {
+        Self {
+            rate: 1e-4,
+            beta1: 0.9,
+            beta2: 0.999,
+            epsilon: 1e-8,
+            weight_decay: 0.0,
+        }
+    }
+}
+
+impl AdamWConfig {
+    pub(super) fn check(&self) -> Result<(), Error> {
+        for (what, found) in [
+            ("optimiser.rate", self.rate),
+            ("optimiser.epsilon", self.epsilon),
+            ("optimiser.weight_decay", self.weight_decay),
+        ] {
+            if !(found.is_finite() && found >= 0.0) {
+                return Err(Error::setting(what, "a finite number from 0", found));
+            }
+        }
+        for (what, found) in [
+            ("optimiser.beta1", self.beta1),
+            ("optimiser.beta2", self.beta2),
+        ] {
+            if !(0.0..1.0).contains(&found) {
+                return Err(Error::setting(what, "at least 0 and below 1", found));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// AdamW: Loshchilov and Hutter, "Decoupled Weight Decay Regularization", 2019, algorithm 2, with
+/// PyTorch's order of operations.
+#[derive(Clone, Debug)]
+pub struct AdamW {
+    config: AdamWConfig,
+    pub(super) steps: u64,
+    /// Mean of gradients and of their squares, by the parameter's path.
+    pub(super) moments: BTreeMap<String, [Tensor<1>; 2]>,
+}
+
+impl AdamW {
+    /// An optimiser that has not seen a gradient.
+    pub const fn new(config: AdamWConfig) -> Self {
+        Self {
+            config,
+            steps: 0,
+            moments: BTreeMap::new(),
+        }
+    }
+
+    /// The network after a step; `factor` is that of the learning rate.
+    pub(super) fn step<M: Module>(
+        &mut self,
+        network: M,
+        mut gradients: NamedGradients,
+        factor: f64,
+    ) -> M {
+        self.steps += 1;
+        let AdamWConfig {
+            rate,
+            beta1,
+            beta2,
+            epsilon,
+            weight_decay,
+        } = self.config;
+        let rate = rate * factor;
+        let bias = |beta: f64| 1.0 - beta.powf(self.steps as f64);
+        let (first_bias, second_bias) = (bias(beta1), bias(beta2));
+        update(network, |path, parameter| {
+            let Some(gradient) = gradients.0.remove(path) else {
+                return parameter;
+            };
+            let [first, second] = self.moments.remove(path).unwrap_or_else(|| {
+                let zeros = gradient.zeros_like();
+                [zeros.clone(), zeros]
+            });
+            let first = first.clone() + (gradient.clone() - first) * (1.0 - beta1);
+            let second = second * beta2 + gradient.square() * (1.0 - beta2);
+            let size = second.clone().sqrt() / second_bias.sqrt() + epsilon;
+            let step = first.clone() / size * (rate / first_bias);
+            self.moments.insert(path.to_owned(), [first, second]);
+            parameter * (1.0 - rate * weight_decay) - step
+        })
+    }
+}

@@ -1,0 +1,66 @@
+//! What a step of training sees.
+
+use crate::Error;
+use crate::text::Embeddings;
+
+/// Motions of one step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionBatch {
+    /// Frames of the longest motion, to which the others are padded with zeros.
+    pub frames: usize,
+    /// Normalised features, `[batch][frames][columns]`.
+    pub features: Vec<f32>,
+    /// Frames of each motion.
+    pub lengths: Vec<usize>,
+    /// What each motion is.
+    pub condition: BatchCondition,
+}
+
+/// What each motion of a batch is, as plain numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BatchCondition {
+    /// Nothing is said.
+    Nothing,
+    /// Encoded captions.
+    Text(Embeddings),
+    /// Numbers of actions.
+    Actions(Vec<usize>),
+}
+
+/// Where motions come from.
+pub trait MotionSource {
+    /// Features a frame.
+    fn columns(&self) -> usize;
+
+    /// The batch of a step. It depends on its arguments only: that is what makes a run repeatable,
+    /// and lets it go on in the middle.
+    ///
+    /// # Errors
+    /// Depends on the source.
+    fn batch(&self, size: usize, seed: u64, step: u64) -> Result<MotionBatch, Error>;
+}
+
+impl MotionBatch {
+    /// Whether counts fit each other.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with the first count that does not.
+    pub(crate) fn check(&self, columns: usize) -> Result<(), Error> {
+        let batch = self.lengths.len();
+        let expected = batch * self.frames * columns;
+        if self.features.len() != expected || batch == 0 {
+            let expected = format!("{batch} x {} x {columns} numbers", self.frames);
+            return Err(Error::input("Batch", expected, self.features.len()));
+        }
+        let possible = 1..=self.frames;
+        if let Some(length) = self
+            .lengths
+            .iter()
+            .find(|length| !possible.contains(length))
+        {
+            let expected = format!("1 to {} frames", self.frames);
+            return Err(Error::input("Length of a motion", expected, length));
+        }
+        Ok(())
+    }
+}
