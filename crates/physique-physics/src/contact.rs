@@ -15,31 +15,57 @@ use crate::transforms::Transforms;
 /// found late and lost early by half the time that speeds are taken over.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct AroundFrame {
+    /// Joint transforms just before and just after the frame.
+    sides: [Vec<DMat4>; 2],
     /// Rates of the joint transforms; a side without frames is left out.
     rates: Vec<Vec<DMat4>>,
+    /// From the one side to the other.
+    seconds: f64,
 }
 
 impl AroundFrame {
-    /// Rates from `frames.0` to `frame` and from there to `frames.1`.
+    /// Looks so many frames to either side, or parts of frames: the same time at every frame rate.
     pub(crate) fn set(
         &mut self,
         transforms: &Transforms,
         frame: usize,
-        frames: (usize, usize),
+        reach: [f64; 2],
         frame_s: f64,
     ) {
-        let sides = [(frames.0, frame), (frame, frames.1)];
-        let sides = sides.into_iter().filter(|(from, to)| from < to);
+        let [before, after] = &mut self.sides;
+        transforms.interpolated(frame as f64 - reach[0], before);
+        transforms.interpolated(frame as f64 + reach[1], after);
+        let now = transforms.frame(frame);
+        let steps = [(before.as_slice(), now), (now, after.as_slice())];
+        let steps = steps.into_iter().zip(reach);
         let mut used = 0;
-        for (from, to) in sides {
+        for ((from, to), frames) in steps.filter(|(_, frames)| *frames > 0.0) {
             if self.rates.len() == used {
                 self.rates.push(Vec::new());
             }
-            let seconds = (to - from) as f64 * frame_s;
-            transforms.rate(from, to, seconds, &mut self.rates[used]);
+            let per_second = 1.0 / (frames * frame_s);
+            let rate = &mut self.rates[used];
+            rate.clear();
+            rate.extend(
+                from.iter()
+                    .zip(to)
+                    .map(|(from, to)| (*to - *from) * per_second),
+            );
             used += 1;
         }
         self.rates.truncate(used);
+        self.seconds = (reach[0] + reach[1]) * frame_s;
+    }
+
+    /// Joint transforms just before and just after the frame.
+    pub(crate) fn sides(&self) -> [&[DMat4]; 2] {
+        let [before, after] = &self.sides;
+        [before, after]
+    }
+
+    /// Time between them; 0 for a single frame.
+    pub(crate) fn seconds(&self) -> f64 {
+        self.seconds
     }
 
     /// Whether a vertex hardly moves; so do those of a single frame.

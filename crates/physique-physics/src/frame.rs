@@ -63,28 +63,27 @@ pub struct JointMotion {
 pub(crate) struct Filters {
     pub(crate) balance: TimeFilter,
     pub(crate) smoothness: TimeFilter,
-    /// Frames on either side over which speeds of skin are taken, about 0.05 s.
-    pub(crate) speed_reach: usize,
+    /// Frames on either side over which speeds of skin are taken.
+    pub(crate) speed_reach: f64,
 }
 
 impl Filters {
-    /// Speeds of skin are taken over about this long to either side, in seconds.
+    /// Speeds of skin are taken over this long to either side, in seconds.
     const SPEED_REACH: f64 = 0.05;
 
     pub(crate) fn new(motion: &Motion, options: &PhysicsOptions) -> Result<Self, Error> {
         let rate = motion.frame_rate();
-        let reach = (Self::SPEED_REACH * rate.per_second()).round() as usize;
         Ok(Self {
             balance: TimeFilter::averaging(rate, options.balance_cutoff_hz)?,
             smoothness: TimeFilter::new(rate, options.smoothness_cutoff_hz)?,
-            speed_reach: reach.max(1),
+            speed_reach: Self::SPEED_REACH * rate.per_second(),
         })
     }
 
     /// Frames that a frame's measures need on either side.
     pub(crate) fn reach(&self) -> usize {
         let filters = self.balance.reach().max(self.smoothness.reach());
-        filters.max(self.speed_reach)
+        filters.max(self.speed_reach.ceil() as usize)
     }
 }
 
@@ -135,12 +134,10 @@ impl<'a> FrameMeter<'a> {
             rotations,
         };
         self.physics.body().pose(&pose, &mut self.posed)?;
-        let last = self.motion.frame_count() - 1;
-        let from = frame.saturating_sub(self.filters.speed_reach);
-        let to = (frame + self.filters.speed_reach).min(last);
+        let after = self.motion.frame_count() - 1 - frame;
+        let reach = [frame, after].map(|frames| self.filters.speed_reach.min(frames as f64));
         let frame_s = self.motion.frame_rate().frame_seconds();
-        let seconds = (to - from).max(1) as f64 * frame_s;
-        self.around.set(transforms, frame, (from, to), frame_s);
+        self.around.set(transforms, frame, reach, frame_s);
 
         let vertices = self.posed.vertices();
         let lowest = vertices.iter().map(|v| v.y).fold(f32::MAX, f32::min);
@@ -166,10 +163,7 @@ impl<'a> FrameMeter<'a> {
                 Some(_) => Support::Ground,
                 None => Support::Nothing,
             },
-            slide_m_s: self.slide(
-                [from, frame, to].map(|frame| transforms.frame(frame)),
-                seconds,
-            ),
+            slide_m_s: self.slide(transforms.frame(frame)),
             centre_of_mass: self.physics.moments().mean(transforms.frame(frame)),
             centre_of_pressure: self.centre_of_pressure(),
             base_of_support: polygon,
@@ -181,15 +175,19 @@ impl<'a> FrameMeter<'a> {
         })
     }
 
-    /// Mean horizontal speed of the sole points that are low all the time between the first and
-    /// the last of three frames, and not so fast that they swing.
-    fn slide(&self, frames: [&[DMat4]; 3], seconds: f64) -> f64 {
+    /// Mean horizontal speed of the sole points that are low in a frame, just before and just after,
+    /// and not so fast that they swing.
+    fn slide(&self, now: &[DMat4]) -> f64 {
+        let [before, after] = self.around.sides();
+        let (frames, seconds) = ([before, now, after], self.around.seconds());
         let body: &Body = self.physics.body();
         let (mut sum, mut count) = (0.0, 0);
         for sole in self.physics.soles() {
             let points = frames.map(|transforms| skinned(body, sole.vertex, transforms));
             let low = |p: &DVec3| p.y - self.ground < self.options.contact_height;
-            let speed = on_ground(points[2] - points[0]).length() / seconds;
+            let way = on_ground(points[2] - points[0]).length();
+            // A single frame goes nowhere.
+            let speed = if seconds > 0.0 { way / seconds } else { 0.0 };
             if points.iter().all(low) && speed < self.options.swing_speed {
                 sum += speed;
                 count += 1;

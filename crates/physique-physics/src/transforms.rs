@@ -60,10 +60,17 @@ impl Transforms {
         }
     }
 
-    /// Mean rate of change between two frames, `seconds` apart.
-    pub(crate) fn rate(&self, from: usize, to: usize, seconds: f64, rate: &mut Vec<DMat4>) {
-        rate.clear();
-        let pairs = self.frame(from).iter().zip(self.frame(to));
-        rate.extend(pairs.map(|(from, to)| (*to - *from) * (1.0 / seconds)));
+    /// `[joints]` transforms between frames, each number linearly between its neighbours'.
+    pub(crate) fn interpolated(&self, position: f64, transforms: &mut Vec<DMat4>) {
+        let before = position.floor();
+        let part = position - before;
+        let before = before as usize;
+        transforms.clear();
+        transforms.extend_from_slice(self.frame(before));
+        if part > 0.0 {
+            for (transform, next) in transforms.iter_mut().zip(self.frame(before + 1)) {
+                *transform += (*next - *transform) * part;
+            }
+        }
     }
 }
