@@ -6,6 +6,7 @@
 //! * [`ColumnScanner`]: volume that a closed surface covers once, twice or more often, exact along
 //!   parallel lines, told apart by pair of labels (body parts, to the floors above).
 //! * [`TrianglePairs`]: which triangles intersect, exactly.
+//! * [`ConicField`]: what intersecting triangles cost, with derivatives.
 //! * [`sia`]: the voxel protocol of the published self-intersection metric, and where it misleads.
 //! * [`shapes`]: spheres, boxes and tori with known volumes.
 //!
@@ -13,6 +14,7 @@
 //! outwards: seen from outside, the corners of a triangle run counter-clockwise.
 
 mod column_scan;
+mod conic_field;
 mod error;
 pub mod exact;
 mod measure;
@@ -27,6 +29,7 @@ pub use column_scan::{
     Axis, ColumnScanner, CoveredVolumes, LabelDistances, Overlap, PairOverlap, PairOverlaps, Scan,
     ScanOptions, Solid, TriangleLabels,
 };
+pub use conic_field::{ConicField, PairGradient};
 pub use error::Error;
 pub use measure::{signed_volume, vertex_normals};
 pub use shapes::Mesh;

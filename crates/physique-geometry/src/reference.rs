@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::{DVec3, Vec3};
 
 use crate::sia::{POINTS_ASIDE, SiaVolumes, coordinate, in_ball};
-use crate::{Error, Triangles};
+use crate::{ConicField, Error, Triangles};
 
 const HALF: f32 = std::f32::consts::FRAC_1_SQRT_2;
 const THIRD: f32 = 0.577_350_26;
@@ -147,6 +147,53 @@ fn closest_point(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
     }
     let sum = va + vb + vc;
     a + ab * (vb / sum) + ac * (vc / sum)
+}
+
+/// The cost of two triangles in each other's [conic distance fields](crate::ConicField), term by term
+/// as published. Has no gradient: take differences.
+#[must_use]
+pub fn conic_pair_cost(field: &ConicField, first: [DVec3; 3], second: [DVec3; 3]) -> f64 {
+    let in_units = |corners: [DVec3; 3]| corners.map(|corner| corner / field.unit);
+    let (first, second) = (in_units(first), in_units(second));
+    let sum = |triangle, points: [DVec3; 3]| -> f64 {
+        let intrusion = |point| conic_field(field.sigma, triangle, point);
+        points
+            .into_iter()
+            .map(|point| intrusion(point).powi(2))
+            .sum()
+    };
+    sum(first, second) + sum(second, first)
+}
+
+/// Psi of the paper: the square of `(1 - F) Y`.
+fn conic_field(sigma: f64, [a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
+    let normal = (b - a).cross(c - a).normalize_or_zero();
+    // The circumcentre by its weights: opposite side's square times the sum of the others less it.
+    let [u, v, w] = [
+        b.distance_squared(c),
+        c.distance_squared(a),
+        a.distance_squared(b),
+    ];
+    let weights = [u * (v + w - u), v * (w + u - v), w * (u + v - w)];
+    let total: f64 = weights.iter().sum();
+    if normal == DVec3::ZERO || total <= 0.0 {
+        return 0.0;
+    }
+    let centre = (a * weights[0] + b * weights[1] + c * weights[2]) / total;
+    let radius = centre.distance(a);
+    let height = normal.dot(point - centre);
+    let aside = (point - centre - normal * height).length();
+    let outside = aside / (-(radius / sigma) * height + radius);
+    if height >= sigma || outside >= 1.0 {
+        return 0.0;
+    }
+    let depth = if height <= -sigma {
+        -height + 1.0 - sigma
+    } else {
+        -(1.0 - 2.0 * sigma) / (4.0 * sigma * sigma) * height * height - height / (2.0 * sigma)
+            + (3.0 - 2.0 * sigma) / 4.0
+    };
+    ((1.0 - outside) * depth).powi(2)
 }
 
 fn sum_of_rays(faces: &[[Vec3; 3]], point: Vec3) -> i32 {

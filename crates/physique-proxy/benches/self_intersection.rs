@@ -1,8 +1,7 @@
 //! The self-intersection loss of 192 spheres in the open body, forward and backward, on real motion.
 
-#[allow(dead_code)]
-#[path = "../tests/loss/crude.rs"]
-mod crude;
+#[path = "../tests/loss/real.rs"]
+mod real;
 
 use std::sync::LazyLock;
 
@@ -13,9 +12,8 @@ use physique_proxy::{
 
 /// Body, pairs, and real poses.
 static CASE: LazyLock<(SphereBody, Pairs, Vec<PoseMatrices>)> = LazyLock::new(|| {
-    let (body, poses) = (crude::body(), crude::real_poses());
-    let pairs = crude::pairs(&body, &poses);
-    (body, pairs, poses)
+    let (body, pairs) = real::body_and_pairs();
+    (body, pairs, real::poses())
 });
 
 fn main() {

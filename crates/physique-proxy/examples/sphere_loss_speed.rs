@@ -5,22 +5,25 @@
 //! RAYON_NUM_THREADS=2 cargo run --release --example sphere_loss_speed -- 64 1024 12544
 //! ```
 
-#[allow(dead_code)]
-#[path = "../tests/loss/crude.rs"]
-mod crude;
+#[path = "support/clock.rs"]
+mod clock;
+#[path = "../tests/loss/real.rs"]
+mod real;
 
 use std::fs;
 use std::time::Instant;
 
 use physique_proxy::{Backend, SelfIntersection, SelfIntersectionOptions};
 
+use clock::{median, processor_milliseconds};
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let sizes: Vec<usize> = std::env::args()
         .skip(1)
         .map(|size| size.parse())
         .collect::<Result<_, _>>()?;
-    let (body, clips) = (crude::body(), crude::real_poses());
-    let pairs = crude::pairs(&body, &clips);
+    let (body, pairs) = real::body_and_pairs();
+    let clips = real::poses();
     let threads = rayon::current_num_threads();
     println!(
         "{} spheres, {} pairs, real motion, {threads} threads",
@@ -49,10 +52,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 wall.push(1e3 * start.0.elapsed().as_secs_f64() / calls as f64);
                 cpu.push((processor_milliseconds()? - start.1) / calls as f64);
             }
-            let median = |times: &mut Vec<f64>| {
-                times.sort_by(f64::total_cmp);
-                times[times.len() / 2]
-            };
             let grown = resident()?.saturating_sub(before);
             println!(
                 "frames {frames}, {backend}: wall {:.4} ms, CPU {:.4} ms, {grown} kB beyond inputs and outputs",
@@ -62,16 +61,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
     Ok(())
-}
-
-/// Time that all threads of this process have run.
-fn processor_milliseconds() -> Result<f64, Box<dyn std::error::Error>> {
-    let mut nanoseconds = 0.0;
-    for thread in fs::read_dir("/proc/self/task")? {
-        let times = fs::read_to_string(thread?.path().join("schedstat"))?;
-        nanoseconds += times.split(' ').next().unwrap_or_default().parse::<f64>()?;
-    }
-    Ok(1e-6 * nanoseconds)
 }
 
 /// Memory of this process, in kB.

@@ -21,6 +21,7 @@ use physique_body::{BodyModel, Joint};
 use physique_geometry::Triangles;
 use rayon::prelude::*;
 
+pub(crate) use blend_weights::vertex_rows;
 pub use blend_weights::{BlendOptions, NeighbourWeights};
 pub use options::FitOptions;
 pub use sphere_losses::{SphereLossWeights, SphereLosses};

@@ -9,6 +9,7 @@
 //! | which of them must not intersect | [`Pairs`] |
 //! | the loss and its gradient by poses and shape, fused and vectorised | [`SelfIntersection`] |
 //! | the same on HumanML3D's and KIT's features | [`FeatureLoss`] |
+//! | the mesh-based loss that it stands in for | [`MeshLoss`] |
 //! | what it saw, in words | [`explain`](explain()) |
 //! | bodies against ground, things and each other | [`scene`] |
 //! | all of it slowly, from the equations, in `f64` | [`reference`](mod@reference) |
@@ -52,6 +53,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod chain;
 mod engine;
 pub mod error;
 pub mod evaluate;
@@ -61,6 +63,7 @@ pub mod files;
 pub mod fit;
 mod kernel;
 mod lanes;
+pub mod mesh_loss;
 pub mod open_proxy;
 pub mod pair_statistics;
 pub mod pairs;
@@ -80,6 +83,7 @@ pub use error::Error;
 pub use explain::{PartOverlap, explain};
 pub use feature_loss::{FeatureGradient, FeatureLoss};
 pub use lanes::Backend;
+pub use mesh_loss::{MeshLoss, MeshLossOptions};
 pub use open_proxy::{open_proxy, open_proxy_with};
 pub use pair_statistics::PairStatistics;
 pub use pairs::Pairs;

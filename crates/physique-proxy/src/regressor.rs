@@ -4,6 +4,7 @@
 //! the published ones, so that their parameters can be exchanged. Evaluating and training need
 //! nothing but a matrix product.
 
+mod betas;
 mod gradient;
 mod joints;
 mod matrix;

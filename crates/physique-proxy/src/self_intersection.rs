@@ -5,7 +5,7 @@ use std::fmt;
 use physique_body::Joint;
 
 use crate::engine::{Build, Engine, Request};
-use crate::kernel::TileGradient;
+use crate::kernel::{ShapeSums, TileGradient};
 use crate::plan::Plan;
 use crate::shape_gradient::ShapeGradient;
 use crate::{Backend, Error, Pairs, Penalty, PoseMatrices, SphereBody};
@@ -126,15 +126,8 @@ impl SelfIntersection {
         losses: &mut [f32],
         by_poses: &mut [PoseMatrices],
     ) -> Result<(), Error> {
-        check_length("Losses", poses, losses.len())?;
-        check_length("Weights", poses, weights.len())?;
-        check_length("Gradient", poses, by_poses.len())?;
-        let request = Request {
-            poses,
-            losses,
-            gradient: Some(TileGradient { weights, by_poses }),
-        };
-        refuse(poses, self.engine.evaluate(request, false).not_finite)
+        self.evaluate(poses, weights, losses, by_poses, false)?;
+        Ok(())
     }
 
     /// As [`SelfIntersection::gradient`]; returns the gradient by the shape as well, from which a
@@ -149,6 +142,19 @@ impl SelfIntersection {
         losses: &mut [f32],
         by_poses: &mut [PoseMatrices],
     ) -> Result<ShapeGradient, Error> {
+        let sums = self.evaluate(poses, weights, losses, by_poses, true)?;
+        Ok(ShapeGradient::new(&self.engine.plan().order, sums.as_ref()))
+    }
+
+    /// Losses and gradient; with `shape`, also the sums of the gradient by the shape.
+    fn evaluate(
+        &self,
+        poses: &[PoseMatrices],
+        weights: &[f32],
+        losses: &mut [f32],
+        by_poses: &mut [PoseMatrices],
+        shape: bool,
+    ) -> Result<Option<ShapeSums>, Error> {
         check_length("Losses", poses, losses.len())?;
         check_length("Weights", poses, weights.len())?;
         check_length("Gradient", poses, by_poses.len())?;
@@ -157,10 +163,9 @@ impl SelfIntersection {
             losses,
             gradient: Some(TileGradient { weights, by_poses }),
         };
-        let outcome = self.engine.evaluate(request, true);
+        let outcome = self.engine.evaluate(request, shape);
         refuse(poses, outcome.not_finite)?;
-        let order = &self.engine.plan().order;
-        Ok(ShapeGradient::new(order, outcome.shape.as_ref()))
+        Ok(outcome.shape)
     }
 }
 
@@ -174,7 +179,12 @@ impl fmt::Debug for SelfIntersection {
     }
 }
 
-fn check_length(what: &'static str, poses: &[PoseMatrices], found: usize) -> Result<(), Error> {
+/// One element a frame.
+pub(crate) fn check_length(
+    what: &'static str,
+    poses: &[PoseMatrices],
+    found: usize,
+) -> Result<(), Error> {
     if found == poses.len() {
         return Ok(());
     }

@@ -3,7 +3,7 @@
 use glam::{Mat3, Vec3};
 use physique_body::Joint;
 
-use crate::{Error, Pairs, PoseMatrices};
+use crate::{Error, Pairs, PoseMatrices, chain};
 
 /// The spheres and joints of one body shape at rest, with the weights by which they follow joints.
 ///
@@ -89,30 +89,9 @@ impl SphereBody {
 
     /// `world_from_rest` of all joints: where a point that follows one joint only moves to.
     pub fn joint_transforms(&self, rotations: &PoseMatrices) -> [(Mat3, Vec3); Joint::COUNT] {
-        let mut world = [(Mat3::IDENTITY, Vec3::ZERO); Joint::COUNT];
-        for joint in Joint::ALL {
-            let index = joint.index();
-            let local = Mat3::from_cols_array(&rotations[index]).transpose();
-            let rest = self.rest_joints[index];
-            world[index] = match joint.parent().map(Joint::index) {
-                None => (local, rest),
-                Some(parent) => {
-                    let (rotation, position) = world[parent];
-                    let offset = rest - self.rest_joints[parent];
-                    (rotation * local, rotation * offset + position)
-                }
-            };
-        }
-        let from_rest = |(transform, &rest): (&(Mat3, Vec3), &Vec3)| {
-            let &(rotation, position) = transform;
-            (rotation, position - rotation * rest)
-        };
-        let mut transforms = world;
-        for (transform, pair) in transforms
-            .iter_mut()
-            .zip(world.iter().zip(&self.rest_joints))
-        {
-            *transform = from_rest(pair);
+        let mut transforms = chain::world_from_joint(&self.rest_joints, rotations);
+        for ((rotation, position), &rest) in transforms.iter_mut().zip(&self.rest_joints) {
+            *position -= *rotation * rest;
         }
         transforms
     }

@@ -3,8 +3,8 @@
 use glam::Vec3;
 use physique_body::Joint;
 
-use super::spheres::padded_betas;
-use super::{Activations, Network, NetworkLayout};
+use super::betas::of_betas;
+use super::{Network, NetworkLayout};
 use crate::Error;
 
 /// The joint regressor: betas to the 22 rest joints in the paper's normalised unit, for those who
@@ -65,9 +65,7 @@ impl JointRegressor {
     /// # Errors
     /// [`Error::Betas`] for more betas than it reads, or for one that is not finite.
     pub fn joints(&self, betas: &[f32]) -> Result<[Vec3; Joint::COUNT], Error> {
-        let inputs = padded_betas(betas, self.beta_count())?;
-        let mut activations = Activations::default();
-        self.network.forward(&inputs, 1, &mut activations);
+        let activations = of_betas(&self.network, betas)?;
         let mut joints = [Vec3::ZERO; Joint::COUNT];
         for (joint, &position) in joints.iter_mut().zip(activations.outputs().as_chunks().0) {
             *joint = Vec3::from_array(position);

@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 
-use super::{Activations, Gradient, Network, NetworkLayout};
+use super::betas::of_betas;
+use super::{Gradient, Network, NetworkLayout};
 use crate::Error;
 
 /// Spheres of one shape, in the paper's normalised unit.
@@ -95,8 +96,7 @@ impl SphereRegressor {
     /// # Errors
     /// [`Error::Betas`] for more betas than it reads, or for one that is not finite.
     pub fn spheres(&self, betas: &[f32]) -> Result<RegressedSpheres, Error> {
-        let mut activations = Activations::default();
-        self.forward(betas, &mut activations)?;
+        let activations = of_betas(&self.network, betas)?;
         let rows = activations.outputs().as_chunks::<4>().0.iter();
         let (radii, centres) = rows
             .map(|&[log_radius, x, y, z]| (log_radius.exp(), Vec3::new(x, y, z)))
@@ -128,8 +128,7 @@ impl SphereRegressor {
                 });
             }
         }
-        let mut activations = Activations::default();
-        self.forward(betas, &mut activations)?;
+        let activations = of_betas(&self.network, betas)?;
         let rows = activations.outputs().as_chunks::<4>().0.iter();
         let slopes: Vec<f32> = rows
             .zip(centres.iter().zip(radii))
@@ -143,23 +142,4 @@ impl SphereRegressor {
         gradient.inputs.truncate(betas.len());
         Ok(gradient.inputs)
     }
-
-    fn forward(&self, betas: &[f32], activations: &mut Activations) -> Result<(), Error> {
-        let inputs = padded_betas(betas, self.beta_count())?;
-        self.network.forward(&inputs, 1, activations);
-        Ok(())
-    }
-}
-
-/// Betas with zeros behind them.
-pub(super) fn padded_betas(betas: &[f32], count: usize) -> Result<Vec<f32>, Error> {
-    if betas.len() > count || !betas.iter().all(|beta| beta.is_finite()) {
-        return Err(Error::Betas {
-            available: count,
-            found: format!("{betas:?}"),
-        });
-    }
-    let mut padded = betas.to_vec();
-    padded.resize(count, 0.0);
-    Ok(padded)
 }

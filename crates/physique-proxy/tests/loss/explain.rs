@@ -4,13 +4,12 @@ use glam::{Quat, Vec3};
 use physique_body::Joint;
 use physique_proxy::{Pairs, SelfIntersection, explain, pose_matrices};
 
-use crate::crude;
+use crate::real;
 use crate::support::Random;
 
 #[test]
 fn a_forearm_in_the_trunk_is_named() {
-    let body = crude::body();
-    let pairs = crude::pairs(&body, &crude::real_poses());
+    let (body, pairs) = real::body_and_pairs();
     let mut folded = [Quat::IDENTITY; Joint::COUNT];
     folded[Joint::LeftShoulder.index()] = Quat::from_rotation_z(-1.2);
     folded[Joint::LeftElbow.index()] = Quat::from_rotation_z(-1.6);

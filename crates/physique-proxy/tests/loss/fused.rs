@@ -6,8 +6,8 @@ use physique_proxy::{
     ShapeGradient, SphereBody, reference,
 };
 
-use crate::crude;
 use crate::golden::Golden;
+use crate::real;
 use crate::support::Random;
 
 /// Largest differences of losses and gradients between a backend and the reference.
@@ -127,8 +127,8 @@ fn golden_poses() {
 
 #[test]
 fn real_poses() {
-    let (body, poses) = (crude::body(), crude::real_poses());
-    let pairs = crude::pairs(&body, &poses);
+    let (body, pairs) = real::body_and_pairs();
+    let poses = real::poses();
     assert!(pairs.len() > 10_000, "{}", pairs.len());
     for backend in Backend::available() {
         for (penalty, tolerance) in [(Penalty::Squared, 0.0), (Penalty::Linear, 0.005)] {

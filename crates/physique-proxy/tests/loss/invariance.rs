@@ -7,7 +7,7 @@ use physique_proxy::{
     SphereBody,
 };
 
-use crate::crude;
+use crate::real;
 use crate::support::Random;
 
 struct Evaluated {
@@ -88,10 +88,9 @@ fn rotation(matrix: &[f32; 9]) -> Mat3 {
 
 #[test]
 fn turning_the_whole_body_changes_nothing() {
-    let body = crude::body();
-    let mut poses = crude::real_poses();
+    let (body, pairs) = real::body_and_pairs();
+    let mut poses = real::poses();
     poses.truncate(200);
-    let pairs = crude::pairs(&body, &poses);
     let turn = Mat3::from_quat(Quat::from_euler(glam::EulerRot::YXZ, 2.0, 0.7, -0.4));
     let mut turned = poses.clone();
     for pose in &mut turned {
@@ -119,9 +118,8 @@ fn turning_the_whole_body_changes_nothing() {
 /// A mirrored body in mirrored poses.
 #[test]
 fn mirrors_change_nothing() {
-    let body = crude::body();
-    let poses = crude::real_poses();
-    let pairs = crude::pairs(&body, &poses);
+    let (body, pairs) = real::body_and_pairs();
+    let poses = real::poses();
     let flip = Vec3::new(-1.0, 1.0, 1.0);
     let mirror = |joint: usize| Joint::ALL[joint].mirrored().index();
     let mirrored_body = SphereBody {
