@@ -11,6 +11,8 @@ import statistics
 import sys
 
 FOLDERS = {
+    "01": "playground, as recorded", "02": "walk, run, jump, punch, as recorded",
+    "03": "uneven ground, as recorded",
     "001": "playground: jumps, climbing", "002": "walk, run, jump, punch", "003": "uneven ground",
     "005": "modern dance, ballet", "006": "basketball", "007": "walk in many ways",
     "salsa": "salsa", "martial": "martial arts", "indian": "Indian dance",
