@@ -9,10 +9,11 @@ use crate::body_choice::BodyArguments;
 use crate::convert::arguments::ConvertArguments;
 use crate::inspect::arguments::InspectArguments;
 use crate::proxy::arguments::ProxyVerb;
+use crate::repair::arguments::RepairArguments;
 use crate::scan::arguments::ScanArguments;
 use crate::score::arguments::ScoreArguments;
 
-/// Human motion that a body could really perform: score it, look at it, convert it.
+/// Human motion that a body could really perform: score it, look at it, repair it, convert it.
 #[derive(Debug, Parser)]
 #[command(
     name = "physique",
@@ -42,6 +43,9 @@ pub(crate) enum Verb {
     Inspect(Box<InspectArguments>),
     /// Bring motions to the body and write them in any format: BVH, AMASS, GLB, HumanML3D, KIT, CSV.
     Convert(ConvertArguments),
+    /// Change motions as little as possible so that a body could really perform them: without
+    /// self-intersection, sinking, floating and sliding, and with no measure made worse.
+    Repair(Box<RepairArguments>),
     /// Score embedded clips of real motion and draw them, to see what Physique does.
     Demo(DemoArguments),
     /// Spheres in place of a body: fit them, count which touch, measure them.

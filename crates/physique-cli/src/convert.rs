@@ -2,8 +2,8 @@
 
 pub(crate) mod arguments;
 mod outcome;
-mod plan;
-mod resume;
+pub(crate) mod plan;
+pub(crate) mod resume;
 
 use std::collections::HashSet;
 use std::ffi::OsStr;
@@ -29,7 +29,7 @@ use resume::{Resume, make_room};
 
 pub(crate) fn run(arguments: &ConvertArguments) -> Result<Exit> {
     let start = Instant::now();
-    let plan = Plan::new(arguments)?;
+    let plan = Plan::new(&arguments.inputs, &arguments.output, arguments.to)?;
     let converter = Converter {
         body: arguments.body.body()?,
         read: load_options(&arguments.read)?,

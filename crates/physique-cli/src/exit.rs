@@ -11,6 +11,9 @@ pub(crate) enum Exit {
     Failed,
     /// All was scored, and `--fail-on` is met: 3.
     ConditionMet,
+    /// All was done, but a motion stays as it was: every repair would have made something else
+    /// worse: 4.
+    HeldBack,
 }
 
 impl From<Exit> for ExitCode {
@@ -19,6 +22,7 @@ impl From<Exit> for ExitCode {
             Exit::Done => 0,
             Exit::Failed => 1,
             Exit::ConditionMet => 3,
+            Exit::HeldBack => 4,
         })
     }
 }

@@ -13,6 +13,7 @@ mod names;
 mod parquet;
 mod progress;
 mod proxy;
+mod repair;
 mod scan;
 mod score;
 mod table;
@@ -42,6 +43,7 @@ fn main() -> ExitCode {
         Verb::View(arguments) => view::run(arguments),
         Verb::Inspect(arguments) => inspect::run(arguments),
         Verb::Convert(arguments) => convert::run(arguments),
+        Verb::Repair(arguments) => repair::run(arguments),
         Verb::Demo(arguments) => demo::run(arguments),
         Verb::Proxy(verb) => proxy::run(verb),
         Verb::Completions { shell } => {

@@ -49,3 +49,34 @@ impl Progress {
         self.bar.finish_and_clear();
     }
 }
+
+/// How far a repair has come: a line of its own, where a person watches.
+pub(crate) struct Rounds {
+    line: ProgressBar,
+}
+
+impl Rounds {
+    pub(crate) fn new() -> Self {
+        let line = ProgressBar::new_spinner();
+        line.set_message("measuring");
+        line.enable_steady_tick(Duration::from_millis(200));
+        Self { line }
+    }
+
+    /// For those of many motions.
+    pub(crate) fn hidden() -> Self {
+        let line = ProgressBar::hidden();
+        Self { line }
+    }
+
+    /// So many rounds are done, and so much self-intersection is left.
+    pub(crate) fn tell(&self, round: usize, self_intersection_cm3: f64) {
+        self.line.set_message(format!(
+            "round {round}: {self_intersection_cm3:.1} cm³ of self-intersection left"
+        ));
+    }
+
+    pub(crate) fn finish(&self) {
+        self.line.finish_and_clear();
+    }
+}

@@ -26,7 +26,7 @@ pub(crate) fn run(verb: &ProxyVerb) -> Result<Exit> {
 
 impl ProxyChoice {
     /// The proxy that is asked for, and what to call it.
-    fn load(&self) -> Result<(String, SphereProxy)> {
+    pub(crate) fn load(&self) -> Result<(String, SphereProxy)> {
         let Some(path) = &self.proxy else {
             let name = format!("open body, {} spheres", self.spheres);
             return Ok((name, SphereProxy::clone(&*open_proxy_with(self.spheres)?)));

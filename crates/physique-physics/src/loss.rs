@@ -25,7 +25,7 @@ pub use balance::SupportedBalance;
 pub use contact::{Sliding, soft_contact, sole_contacts};
 pub use ground::{Floating, Penetration};
 pub use pressure::PressureBalance;
-pub use shaped::LossBody;
+pub use shaped::{LossBody, SkinPoint};
 pub use stream::{MotionGradient, MotionSlices, evaluate};
 
 pub(crate) use shaped::ShapedBody;

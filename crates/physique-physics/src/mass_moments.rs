@@ -58,6 +58,12 @@ impl MassMoments {
         self.mass
     }
 
+    /// `[joints]` first moments `sum_k m_k w_kj (x_k, 1)`: of `world_from_rest` of a joint, its part
+    /// of the mass times where that is.
+    pub fn first(&self) -> &[DVec4] {
+        &self.first
+    }
+
     /// Mean of the posed points by mass: of `world_from_rest` the centre of mass, of its
     /// derivatives the centre's velocity and acceleration.
     pub fn mean(&self, transforms: &[DMat4]) -> DVec3 {

@@ -44,6 +44,11 @@ impl Rig {
         &self.rest_joints
     }
 
+    /// `[joints]` parents; `None` for the root. Parents come before their children.
+    pub fn parents(&self) -> &[Option<usize>] {
+        &self.parents
+    }
+
     /// Number of joints.
     pub fn joint_count(&self) -> usize {
         self.rest_joints.len()

@@ -8,29 +8,41 @@
 //! Hands that touch the body on purpose keep touching. And a promise is kept: no measure of `score`
 //! gets worse beyond [`PROMISE`]; a repair that would break it is made gentler, or not made.
 
+mod balance;
+mod banded;
+mod blend;
+mod candidate;
 mod change;
 mod descent;
+mod feet;
+mod figure;
+mod grid;
+mod ground;
+mod guards;
 mod objective;
+mod preconditioner;
 mod promise;
+pub mod report;
 mod rounds;
 mod stiffness;
 mod touch;
+mod wrench;
 
 pub use promise::{PROMISE, Tolerance, Worse};
+pub use report::{Change, Outcome, RepairHead, RepairReport, RepairedMotion};
 
 use physique_body::Body;
 use physique_motion::Motion;
-use physique_physics::loss::LossBody;
 use physique_proxy::{Pairs, SelfIntersection, SphereBody};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::{Error, MotionScore, ScoreOptions, Scorer};
+use figure::Figure;
 use rounds::Rounds;
 
-/// Points of skin that the ground is compared with, besides the soles'.
-const SKIN_POINTS: usize = 500;
-
 /// What is to be repaired.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Targets {
     /// Parts of the body inside others.
     pub self_intersection: bool,
@@ -50,7 +62,7 @@ impl Targets {
 }
 
 /// How to repair.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RepairOptions {
     /// What is to be repaired.
     pub targets: Targets,
@@ -67,7 +79,7 @@ impl Default for RepairOptions {
         Self {
             targets: Targets::ALL,
             strength: 1.0,
-            rounds: 5,
+            rounds: 6,
             steps: 40,
         }
     }
@@ -82,26 +94,18 @@ pub struct Repaired {
     pub before: MotionScore,
     /// Measures of the repaired motion.
     pub after: MotionScore,
-    /// Whether the motion was changed.
-    pub changed: bool,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// How much was changed.
+    pub change: Change,
     /// What kept repairs that went further from being taken: their measures that got worse.
     pub held_back_by: Vec<Worse>,
-    /// Rounds of descent and measurement.
-    pub rounds: usize,
-    /// Frames in which a hand touches the body on purpose, as far as can be seen.
-    pub touching_frames: usize,
-    /// Mean turn of a joint, in degrees.
-    pub mean_turn_degrees: f64,
-    /// Greatest turn of a joint, in degrees.
-    pub greatest_turn_degrees: f64,
-    /// Mean displacement of the root, in centimetres.
-    pub mean_displacement_cm: f64,
 }
 
 /// Repairs motions of one body: what they share is prepared once.
 pub struct Repairer {
     scorer: Scorer,
-    loss_body: LossBody,
+    figure: Figure,
     sphere_body: SphereBody,
     spheres: SelfIntersection,
     options: RepairOptions,
@@ -125,7 +129,7 @@ impl Repairer {
             });
         }
         Ok(Self {
-            loss_body: LossBody::new(&body, SKIN_POINTS)?,
+            figure: Figure::new(&body)?,
             scorer: Scorer::new(
                 body,
                 ScoreOptions {

@@ -109,6 +109,11 @@ impl Series {
         }
     }
 
+    /// Self-intersection of every frame, in cm3; empty where it was not measured.
+    pub(crate) fn self_intersections(&self) -> &[f64] {
+        self.self_intersection_cm3.as_deref().unwrap_or_default()
+    }
+
     /// Names and values of the numbers a frame, those of other groups left out; `time_s` first.
     pub fn columns(&self) -> Vec<(&'static str, Vec<Option<f64>>)> {
         let full = |values: &Vec<f64>| values.iter().copied().map(Some).collect();

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use physique::ExportFormat;
 
-use super::arguments::ConvertArguments;
+use super::arguments::FormatName;
 use crate::files::{FoundFile, find_files, is_pattern};
 
 /// All conversions of a run.
@@ -59,14 +59,17 @@ impl Plan {
     ///
     /// Fails where the format is not told, where two inputs would go to one output, and where an
     /// output would replace an input.
-    pub(crate) fn new(arguments: &ConvertArguments) -> Result<Self> {
-        let output = &arguments.output;
-        let one_file = matches!(&arguments.inputs[..],
+    pub(crate) fn new(
+        inputs: &[PathBuf],
+        output: &Path,
+        to: Option<FormatName>,
+    ) -> Result<Self> {
+        let one_file = matches!(inputs,
             [input] if !input.is_dir() && (input.exists() || !is_pattern(input)));
         let ends_as_folder = output.to_string_lossy().ends_with(['/', '\\']);
         let into_folder = !one_file || output.is_dir() || ends_as_folder;
-        let format = format(arguments, into_folder)?;
-        let files = find_files(&arguments.inputs, into_folder.then_some(output.as_path()))?;
+        let format = format(output, to, into_folder)?;
+        let files = find_files(inputs, into_folder.then_some(output))?;
         let jobs: Vec<Job> = files
             .into_iter()
             .map(|FoundFile { path, below }| Job {
@@ -74,7 +77,7 @@ impl Plan {
                 output: if into_folder {
                     output.join(with_ending(&below, format))
                 } else {
-                    output.clone()
+                    output.to_owned()
                 },
             })
             .collect();
@@ -82,7 +85,7 @@ impl Plan {
         Ok(Self {
             format,
             target: if into_folder {
-                Target::Folder(output.clone())
+                Target::Folder(output.to_owned())
             } else {
                 Target::File
             },
@@ -91,9 +94,10 @@ impl Plan {
     }
 }
 
-fn format(arguments: &ConvertArguments, into_folder: bool) -> Result<ExportFormat> {
-    let output = arguments.output.display();
-    if let Some(name) = arguments.to {
+fn format(output: &Path, to: Option<FormatName>, into_folder: bool) -> Result<ExportFormat> {
+    let path = output;
+    let output = path.display();
+    if let Some(name) = to {
         return Ok(name.into());
     }
     if into_folder {
@@ -101,10 +105,9 @@ fn format(arguments: &ConvertArguments, into_folder: bool) -> Result<ExportForma
             "{output} is a folder: say the format, such as --to bvh, amass, glb, 263 or positions"
         );
     }
-    match ExportFormat::of(&arguments.output) {
+    match ExportFormat::of(path) {
         Some(format) => Ok(format),
-        None if arguments
-            .output
+        None if path
             .extension()
             .is_some_and(|e| e.eq_ignore_ascii_case("npy")) =>
         {

@@ -13,11 +13,13 @@ const MASS_SPACING: f64 = 0.04;
 
 /// A point of the skin that may touch the ground.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct SkinPoint {
-    pub(crate) rest: DVec3,
-    pub(crate) weights: Vec<(usize, f64)>,
+pub struct SkinPoint {
+    /// Place in the rest pose, in metres.
+    pub rest: DVec3,
+    /// Joints that move it, and how much each does.
+    pub weights: Vec<(usize, f64)>,
     /// Area that it stands for, in m2.
-    pub(crate) area: f64,
+    pub area: f64,
 }
 
 /// A body prepared for the losses: once a body model or identity.
@@ -118,6 +120,22 @@ impl LossBody {
     /// Number of skin points, the twelve sole points first.
     pub fn skin_count(&self) -> usize {
         self.skin.len()
+    }
+
+    /// The skin points, the twelve sole points first: heel, ball and toes of the left foot, inner
+    /// edge before outer, then of the right.
+    pub fn skin(&self) -> &[SkinPoint] {
+        &self.skin
+    }
+
+    /// The skeleton.
+    pub const fn rig(&self) -> &Rig {
+        &self.rig
+    }
+
+    /// The mass points.
+    pub const fn mass_points(&self) -> &MassPoints {
+        &self.mass_points
     }
 
     /// The body with its betas changed by `change` (missing ones by 0).

@@ -1,12 +1,15 @@
 //! The unknowns of a repair: by how much every joint turns and the root moves, frame by frame.
 
-use glam::{DMat3, DQuat, DVec3, Mat3};
+use glam::{DMat3, DQuat, DVec3};
 use physique_body::Joint;
 use physique_motion::Motion;
-use physique_proxy::PoseMatrices;
+use rayon::prelude::*;
 
+use super::figure::{Figure, Pose};
 use crate::Error;
 
+/// Frames that one thread takes at once.
+pub(super) const FRAMES_A_TASK: usize = 16;
 /// Numbers a frame: a rotation vector a joint, in its parent's axes, then the root's displacement.
 pub(super) const UNKNOWNS: usize = 3 * (Joint::COUNT + 1);
 
@@ -15,16 +18,6 @@ pub(super) struct Source {
     motion: Motion,
     rotations: Vec<DQuat>,
     root: Vec<DVec3>,
-}
-
-/// A changed motion, in the forms that the losses take.
-pub(super) struct Changed {
-    /// `[frames][22]` local rotations, flat.
-    pub(super) rotations: Vec<DMat3>,
-    /// `[frames]` root translations.
-    pub(super) root: Vec<DVec3>,
-    /// `[frames]` the rotations again, for the spheres.
-    pub(super) poses: Vec<PoseMatrices>,
 }
 
 impl Source {
@@ -54,26 +47,17 @@ impl Source {
         self.frame_count() * UNKNOWNS
     }
 
-    pub(super) fn changed(&self, change: &[f64]) -> Changed {
-        let mut changed = Changed {
-            rotations: Vec::with_capacity(self.rotations.len()),
-            root: Vec::with_capacity(self.root.len()),
-            poses: Vec::with_capacity(self.root.len()),
+    /// The changed motion, posed.
+    pub(super) fn poses(&self, figure: &Figure, change: &[f64]) -> Vec<Pose> {
+        let frames = (0..self.frame_count()).into_par_iter();
+        let pose = |frame| {
+            let rotations = std::array::from_fn(|joint| {
+                DMat3::from_quat(self.rotation(change, frame, joint))
+            });
+            let root = self.root[frame] + vector(change, frame, Joint::COUNT);
+            figure.pose(rotations, root)
         };
-        for (frame, &root) in self.root.iter().enumerate() {
-            let mut pose: PoseMatrices = Default::default();
-            for (joint, matrix) in pose.iter_mut().enumerate() {
-                let rotation = DMat3::from_quat(self.rotation(change, frame, joint));
-                let single = Mat3::from_cols_array(&rotation.to_cols_array().map(|x| x as f32));
-                *matrix = single.transpose().to_cols_array();
-                changed.rotations.push(rotation);
-            }
-            changed.poses.push(pose);
-            changed
-                .root
-                .push(root + vector(change, frame, Joint::COUNT));
-        }
-        changed
+        frames.with_min_len(FRAMES_A_TASK).map(pose).collect()
     }
 
     /// The changed motion; joints and roots that did not change keep every bit.
@@ -104,15 +88,19 @@ impl Source {
     }
 }
 
-/// From derivatives by small turns `R -> exp(w) R` of the changed rotations, `[frames][22]`, to
-/// derivatives by the unknowns; adds them.
+/// From derivatives by small turns `R -> exp(w) R` of the changed rotations of a frame, and by the
+/// root's displacement, to derivatives by the unknowns of the frame; adds them.
 ///
 /// A step `d` of the rotation vector `w` turns by `J(w) d` more, with the left Jacobian `J` of
 /// the rotations.
-pub(super) fn add_turns(change: &[f64], turns: &[DVec3], gradient: &mut [f64]) {
-    for (place, &turn) in turns.iter().enumerate() {
-        let (frame, joint) = (place / Joint::COUNT, place % Joint::COUNT);
-        let w = vector(change, frame, joint);
+pub(super) fn add_turns(
+    change: &[f64],
+    turns: &[DVec3; Joint::COUNT],
+    root: DVec3,
+    gradient: &mut [f64],
+) {
+    for (joint, &turn) in turns.iter().enumerate() {
+        let w = vector(change, 0, joint);
         let square = w.length_squared();
         let angle = square.sqrt();
         let (a, b) = if angle < 1e-4 {
@@ -126,23 +114,17 @@ pub(super) fn add_turns(change: &[f64], turns: &[DVec3], gradient: &mut [f64]) {
         };
         let across = w.cross(turn);
         let by_vector = turn - across * a + w.cross(across) * b;
-        add(gradient, frame, joint, by_vector);
+        add(gradient, joint, by_vector);
     }
-}
-
-/// Adds derivatives by the root's displacement, `[frames]`.
-pub(super) fn add_root(root: &[DVec3], gradient: &mut [f64]) {
-    for (frame, &root) in root.iter().enumerate() {
-        add(gradient, frame, Joint::COUNT, root);
-    }
+    add(gradient, Joint::COUNT, root);
 }
 
 fn vector(change: &[f64], frame: usize, place: usize) -> DVec3 {
     DVec3::from_slice(&change[frame * UNKNOWNS + 3 * place..])
 }
 
-fn add(gradient: &mut [f64], frame: usize, place: usize, step: DVec3) {
-    let slots = &mut gradient[frame * UNKNOWNS + 3 * place..][..3];
+fn add(gradient: &mut [f64], place: usize, step: DVec3) {
+    let slots = &mut gradient[3 * place..][..3];
     for (slot, step) in slots.iter_mut().zip(step.to_array()) {
         *slot += step;
     }

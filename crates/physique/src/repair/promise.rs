@@ -3,6 +3,9 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::MotionScore;
 use crate::measures::measures;
 
@@ -53,18 +56,23 @@ impl Tolerance {
         }
     }
 
+    /// How much worse than this the measure may get.
+    pub fn allowed(&self, before: f64) -> f64 {
+        self.relative * before.abs() + self.absolute
+    }
+
     fn is_broken(&self, before: f64, after: f64) -> bool {
         let sign = if self.greater_is_better { -1.0 } else { 1.0 };
         let worse = sign * (after - before);
-        worse.is_nan() || worse > self.relative * before.abs() + self.absolute
+        worse.is_nan() || worse > self.allowed(before)
     }
 }
 
 /// A measure that a repair would have made worse.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Worse {
     /// Name of the measure.
-    pub measure: &'static str,
+    pub measure: Cow<'static, str>,
     /// In the source.
     pub before: f64,
     /// In the repaired motion.
@@ -95,7 +103,7 @@ pub(super) fn broken(before: &MotionScore, after: &MotionScore) -> Vec<Worse> {
             let before = value(&before, tolerance.measure)?;
             let after = value(&after, tolerance.measure).unwrap_or(f64::NAN);
             tolerance.is_broken(before, after).then_some(Worse {
-                measure: tolerance.measure,
+                measure: tolerance.measure.into(),
                 before,
                 after,
             })

@@ -3,22 +3,30 @@
 use glam::DVec3;
 use physique_body::Joint;
 use physique_motion::Motion;
-use physique_physics::loss::{MotionSlices, sole_contacts};
 
-use super::change::{Source, UNKNOWNS};
+use super::balance::Balance;
+use super::blend::Blend;
+use super::candidate::{Candidate, Meter, faults};
+use super::change::UNKNOWNS;
 use super::descent::minimise;
+use super::feet::Feet;
+use super::figure::Pose;
+use super::grid::Grid;
+use super::ground::Ground;
+use super::guards::Guards;
 use super::objective::Objective;
-use super::promise::{Worse, broken};
+use super::preconditioner::Preconditioner;
+use super::promise::Worse;
 use super::stiffness::Stiffness;
 use super::touch::Touches;
-use super::{Repaired, Repairer};
-use crate::series::SupportName;
+use super::{Change, Outcome, Repaired, Repairer};
+use crate::series::{Series, SupportName};
 use crate::{Error, MotionScore};
 
 /// Frames with less than this are let be, in cm3: about what the scan's lines can tell.
 const CLEAN_CM3: f64 = 1.0;
-/// Self-intersection weighs so much more from round to round.
-const HARDER: f64 = 2.0;
+/// Neighbours of frames that intersect must not begin to, in seconds.
+const AROUND_S: f64 = 0.25;
 /// How much stiffer trunk and legs are. Arms get out of the way first: that leaves feet and balance
 /// alone. Only what they cannot mend is left to the whole body.
 const BEARING: [f64; 2] = [30.0, 1.0];
@@ -27,34 +35,35 @@ const INVISIBLE: f64 = 0.3;
 /// Rounds go on while they mend more than this part of the faults.
 const WORTHWHILE: f64 = 0.02;
 /// A descent ends when a step gains less than this part of the cost.
-const GAIN: f64 = 1e-4;
+const GAIN: f64 = 3e-4;
+/// A repair that breaks the promise is blended back where it mends this part of what is left.
+const BLENDED: f64 = 0.1;
+/// Most blends that are tried.
+const BLENDS: usize = 8;
 
 /// The state of one repair.
 pub(super) struct Rounds<'a> {
     repairer: &'a Repairer,
-    source: Source,
-    before: MotionScore,
+    /// All frames; none where all frames are knots.
+    whole: Option<Meter<'a>>,
+    /// The knots, where the change is sought.
+    knots: Meter<'a>,
+    stride: usize,
+    poses: Vec<Pose>,
     touches: Touches,
-    grounded: Vec<f64>,
-    contacts: Vec<f64>,
-    /// `[frames]`, growing where the surface still intersects.
+    feet: Feet,
+    balance: Balance,
+    ground: Option<Ground>,
+    /// `[knots]`, growing where the surface still intersects.
     self_weights: Vec<f32>,
-}
-
-/// A motion that a round reached.
-struct Candidate {
-    motion: Motion,
-    change: Vec<f64>,
-    score: MotionScore,
-    faults: f64,
-    worse: Vec<Worse>,
 }
 
 /// What has been reached so far.
 struct Taken {
     best: Option<Candidate>,
     least: f64,
-    held_back_by: Vec<Worse>,
+    /// What mends most, of all that break the promise.
+    broken: Option<Candidate>,
     rounds: usize,
 }
 
@@ -63,7 +72,10 @@ impl Taken {
     /// another round is worth its while.
     fn offer(&mut self, candidate: Candidate) -> bool {
         if !candidate.worse.is_empty() {
-            self.held_back_by = candidate.worse;
+            let least = self.broken.as_ref().map_or(f64::MAX, |broken| broken.faults);
+            if candidate.faults < least {
+                self.broken = Some(candidate);
+            }
             return true;
         }
         let gained = self.least - candidate.faults;
@@ -72,39 +84,49 @@ impl Taken {
         }
         let worthwhile = gained > WORTHWHILE * self.least;
         self.least = candidate.faults;
-        self.held_back_by.clear();
         self.best = Some(candidate);
         worthwhile
+    }
+
+    /// What breaks the promise, and mends so much more that it matters.
+    fn better_but_broken(&mut self) -> Option<Candidate> {
+        let most = (1.0 - BLENDED) * self.least;
+        self.broken.take_if(|broken| broken.faults < most)
     }
 }
 
 impl<'a> Rounds<'a> {
     pub(super) fn new(repairer: &'a Repairer, motion: &Motion) -> Result<Self, Error> {
-        let source = Source::new(motion);
-        let start = source.changed(&vec![0.0; source.unknowns()]);
-        let slices = MotionSlices {
-            frame_rate: motion.frame_rate(),
-            rotations: &start.rotations,
-            root: &start.root,
-            betas: &[],
+        let targets = repairer.options.targets;
+        let grid = Grid::new(motion.frame_count(), motion.frame_rate());
+        let knots = Meter::new(repairer, &grid.at_knots(motion)?, None)?;
+        let whole = match grid.stride() {
+            1 => None,
+            _ => Some(Meter::new(repairer, motion, Some(grid))?),
         };
-        let before = repairer.scorer.score(motion)?;
-        let support = before
-            .series
-            .as_ref()
-            .and_then(|series| series.support.as_ref());
-        let grounded = support.into_iter().flatten().map(|support| match support {
-            SupportName::Flight => 0.0,
-            SupportName::Ground | SupportName::Nothing => 1.0,
-        });
+        let source = &knots.source;
+        let frame_s = source.motion().frame_rate().frame_seconds();
+        let figure = &repairer.figure;
+        let poses = source.poses(figure, &vec![0.0; source.unknowns()]);
+        let series = knots.before.series.clone().unwrap_or_default();
+        let support = series.support.unwrap_or_default();
+        let grounded = support.iter().map(|name| *name != SupportName::Flight);
+        let distances = series.zero_moment_distance_cm.unwrap_or_default();
+        let distances: Vec<_> = distances.iter().map(|cm| Some((*cm)? / 100.0)).collect();
+        let feet = Feet::of(&poses, frame_s, targets.feet);
         Ok(Self {
-            touches: Touches::of(repairer.body(), &repairer.sphere_body, motion),
-            grounded: grounded.collect(),
-            before,
-            contacts: sole_contacts(&repairer.loss_body, &slices, 0.0)?,
-            self_weights: vec![0.0; motion.frame_count()],
+            touches: Touches::of(&repairer.sphere_body, &poses, frame_s),
+            balance: Balance::of(&poses, frame_s, &feet, &distances),
+            ground: targets
+                .ground
+                .then(|| Ground::of(figure, &poses, grounded.collect())),
+            feet,
+            self_weights: vec![0.0; source.frame_count()],
+            stride: grid.stride(),
+            knots,
+            whole,
+            poses,
             repairer,
-            source,
         })
     }
 
@@ -114,22 +136,40 @@ impl<'a> Rounds<'a> {
     ) -> Result<Repaired, Error> {
         let mut taken = Taken {
             best: None,
-            least: self.faults(&self.before),
-            held_back_by: Vec::new(),
+            least: faults(&self.knots.before, self.repairer.options.targets),
+            broken: None,
             rounds: 0,
         };
+        let progress = &mut progress;
         for bearing in BEARING {
-            self.self_weights.fill(0.0);
-            weigh_frames(&self.before, &mut self.self_weights);
-            self.attempt(bearing, &mut taken, &mut progress)?;
             if taken.least < INVISIBLE {
                 break;
             }
+            self.self_weights.fill(0.0);
+            self.weigh_frames(&self.knots.before.clone());
+            self.attempt(bearing, &mut taken, progress)?;
         }
-        Ok(self.outcome(taken))
+        let mut held_back_by = Vec::new();
+        if let Some(broken) = taken.better_but_broken() {
+            held_back_by.clone_from(&broken.worse);
+            self.blend(&self.knots, &broken, &mut taken, progress)?;
+        }
+        // What keeps the promise at the knots may break it between them.
+        if let (Some(whole), Some(best)) = (&self.whole, taken.best.take()) {
+            let best = whole.measure(best.change)?;
+            taken.least = f64::MAX;
+            if best.worse.is_empty() {
+                taken.offer(best);
+            } else {
+                held_back_by.extend_from_slice(&best.worse);
+                self.blend(whole, &best, &mut taken, progress)?;
+            }
+        }
+        Ok(self.outcome(taken, held_back_by))
     }
 
-    /// Round after round, each with faults that weigh more, until little is gained.
+    /// Round after round until little is gained: what still intersects weighs more, and so does
+    /// what broke the promise.
     fn attempt(
         &mut self,
         bearing: f64,
@@ -137,133 +177,157 @@ impl<'a> Rounds<'a> {
         progress: &mut impl FnMut(usize, &MotionScore),
     ) -> Result<(), Error> {
         let options = self.repairer.options;
-        let targets = options.targets;
-        let rate = self.source.motion().frame_rate();
-        let stiffness = Stiffness::new(self.source.frame_count(), rate, bearing);
-        let mut change = vec![0.0; self.source.unknowns()];
-        let mut self_strength = options.strength;
+        let source = &self.knots.source;
+        let rate = source.motion().frame_rate();
+        let mut guards = Guards::new(options);
+        let best = taken.best.as_ref().map(|best| best.change.clone());
+        let mut change = best.unwrap_or_else(|| vec![0.0; source.unknowns()]);
         for _ in 0..options.rounds {
-            if taken.least <= 0.0 {
-                break;
-            }
+            let source = &self.knots.source;
+            let frames = source.frame_count();
+            let stiffness = Stiffness::new(frames, rate, bearing, guards.smooth);
+            let keep = (&self.feet, &self.balance);
+            let figure = &self.repairer.figure;
+            let weights = guards.weights();
             let objective = Objective {
-                source: &self.source,
+                source,
+                figure,
+                preconditioner: &Preconditioner::new(
+                    figure,
+                    &self.poses,
+                    &stiffness,
+                    keep,
+                    weights,
+                ),
                 stiffness: &stiffness,
-                body: &self.repairer.loss_body,
                 spheres: &self.repairer.spheres,
                 touches: &self.touches,
-                self_weights: targets.self_intersection.then(|| self.self_weights.clone()),
-                grounded: targets.ground.then(|| self.grounded.clone()),
-                contacts: targets.feet.then(|| self.contacts.clone()),
-                self_strength,
-                strength: self_strength,
+                feet: &self.feet,
+                balance: &self.balance,
+                ground: self.ground.as_ref(),
+                self_weights: &self.self_weights,
+                weights,
             };
             minimise(&objective, &mut change, options.steps, GAIN);
-            let candidate = self.candidate(&change)?;
+            let candidate = self.knots.measure(change.clone())?;
             taken.rounds += 1;
             progress(taken.rounds, &candidate.score);
-            weigh_frames(&candidate.score, &mut self.self_weights);
-            self_strength *= HARDER;
-            if !taken.offer(candidate) {
+            self.weigh_frames(&candidate.score);
+            guards.learn(&candidate.worse);
+            if !taken.offer(candidate) || taken.least < INVISIBLE {
                 break;
             }
         }
         Ok(())
     }
 
-    fn candidate(&self, change: &[f64]) -> Result<Candidate, Error> {
-        let motion = self.source.motion_of(change)?;
-        let score = self.repairer.scorer.score(&motion)?;
-        Ok(Candidate {
-            faults: self.faults(&score),
-            worse: broken(&self.before, &score),
-            change: change.to_vec(),
-            motion,
-            score,
-        })
+    /// Goes back from a broken promise, window by window, until it holds.
+    fn blend(
+        &self,
+        meter: &Meter<'_>,
+        broken: &Candidate,
+        taken: &mut Taken,
+        progress: &mut impl FnMut(usize, &MotionScore),
+    ) -> Result<(), Error> {
+        let knots = self.knots.source.motion();
+        let best = taken.best.as_ref().map(|best| best.change.clone());
+        let base = best.unwrap_or_else(|| vec![0.0; broken.change.len()]);
+        let mut blend = Blend::new(knots.seconds());
+        let mut worse = broken.worse.clone();
+        let mut after = broken.score.series.clone();
+        for _ in 0..BLENDS {
+            let last = blend.clone();
+            if let (Some(before), Some(after)) = (&meter.before.series, &after) {
+                blend.give_way(before, after, &worse);
+            }
+            if blend == last {
+                blend.give_way_everywhere();
+            }
+            if blend.is_empty() {
+                break;
+            }
+            let knot_s = knots.frame_rate().frame_seconds();
+            let candidate = meter.measure(blend.between(&base, &broken.change, knot_s))?;
+            taken.rounds += 1;
+            progress(taken.rounds, &candidate.score);
+            if candidate.worse.is_empty() {
+                taken.offer(candidate);
+                break;
+            }
+            worse = candidate.worse;
+            after = candidate.score.series;
+        }
+        Ok(())
     }
 
-    /// What is left of the targeted faults, each in units of what is hardly visible.
-    fn faults(&self, score: &MotionScore) -> f64 {
-        let targets = self.repairer.options.targets;
-        let mut faults = 0.0;
-        if targets.self_intersection
-            && let Some(found) = &score.self_intersection
-        {
-            faults += found.mean_cm3 / 5.0;
+    /// Knots whose surface intersects weigh more, their neighbours at least something.
+    fn weigh_frames(&mut self, score: &MotionScore) {
+        if !self.repairer.options.targets.self_intersection {
+            return;
         }
-        if targets.ground
-            && let Some(found) = &score.ground
-        {
-            faults += found.penetration_mean_cm / 0.3;
-            faults += found.floating_mean_cm / 0.3;
+        let volumes = score.series.as_ref().map(Series::self_intersections);
+        let volumes = volumes.unwrap_or_default();
+        let rate = self.knots.source.motion().frame_rate();
+        let around = (AROUND_S * rate.per_second()).ceil() as usize;
+        for (knot, &volume) in volumes.iter().enumerate() {
+            if volume <= CLEAN_CM3 {
+                continue;
+            }
+            self.self_weights[knot] = (self.self_weights[knot] * 2.0).max(1.0);
+            let last = (knot + around + 1).min(volumes.len());
+            for weight in &mut self.self_weights[knot.saturating_sub(around)..last] {
+                *weight = weight.max(1.0);
+            }
         }
-        if targets.feet
-            && let Some(found) = &score.feet
-        {
-            faults += found.slide_mean_cm_s / 2.0;
-        }
-        faults
     }
 
-    fn outcome(self, taken: Taken) -> Repaired {
+    fn outcome(self, taken: Taken, held_back_by: Vec<Worse>) -> Repaired {
         let best = taken.best;
-        let turns = best.as_ref().map_or_else(Default::default, Turns::of);
-        let changed = best.is_some();
+        let outcome = match (best.is_some(), held_back_by.is_empty()) {
+            (true, true) => Outcome::Repaired,
+            (true, false) => Outcome::RepairedInPart,
+            (false, true) => Outcome::Sound,
+            (false, false) => Outcome::HeldBack,
+        };
+        let change = Change {
+            touching_frames: self.touches.frames() * self.stride,
+            rounds: taken.rounds,
+            ..best.as_ref().map_or_else(Change::default, size_of)
+        };
+        let source = self.whole.unwrap_or(self.knots);
         let (motion, mut after) = match best {
             Some(best) => (best.motion, best.score),
-            None => (self.source.motion().clone(), self.before.clone()),
+            None => (source.source.motion().clone(), source.before.clone()),
         };
-        let mut before = self.before;
+        let mut before = source.before;
         (before.series, after.series) = (None, None);
         Repaired {
             motion,
-            after,
             before,
-            changed,
-            held_back_by: taken.held_back_by,
-            rounds: taken.rounds,
-            touching_frames: self.touches.frames(),
-            mean_turn_degrees: turns.mean.to_degrees(),
-            greatest_turn_degrees: turns.greatest.to_degrees(),
-            mean_displacement_cm: 100.0 * turns.displacement,
+            after,
+            outcome,
+            change,
+            held_back_by,
         }
     }
 }
 
-/// Frames whose surface intersects weigh more, others what they did.
-fn weigh_frames(score: &MotionScore, weights: &mut [f32]) {
-    let series = score.series.as_ref();
-    let volumes = series.and_then(|series| series.self_intersection_cm3.as_ref());
-    for (weight, &volume) in weights.iter_mut().zip(volumes.into_iter().flatten()) {
-        if volume > CLEAN_CM3 {
-            *weight = (*weight * 2.0).max(1.0);
+/// How large the change of a candidate is.
+fn size_of(candidate: &Candidate) -> Change {
+    let frames = candidate.change.chunks_exact(UNKNOWNS);
+    let count = frames.len().max(1) as f64;
+    let mut size = Change::default();
+    for frame in frames {
+        let (joints, root) = frame.split_at(3 * Joint::COUNT);
+        for joint in joints.chunks_exact(3) {
+            let angle = DVec3::from_slice(joint).length().to_degrees();
+            size.mean_turn_degrees += angle / (count * Joint::COUNT as f64);
+            size.greatest_turn_degrees = size.greatest_turn_degrees.max(angle);
+        }
+        size.mean_displacement_cm += 100.0 * DVec3::from_slice(root).length() / count;
+        if frame.iter().any(|unknown| *unknown != 0.0) {
+            size.frames_percent += 100.0 / count;
         }
     }
-}
-
-/// Size of a change, in radians and metres.
-#[derive(Default)]
-struct Turns {
-    mean: f64,
-    greatest: f64,
-    displacement: f64,
-}
-
-impl Turns {
-    fn of(candidate: &Candidate) -> Self {
-        let frames = candidate.change.chunks_exact(UNKNOWNS);
-        let count = frames.len().max(1) as f64;
-        let mut turns = Self::default();
-        for frame in frames {
-            let (joints, root) = frame.split_at(3 * Joint::COUNT);
-            for joint in joints.chunks_exact(3) {
-                let angle = DVec3::from_slice(joint).length();
-                turns.mean += angle / (count * Joint::COUNT as f64);
-                turns.greatest = turns.greatest.max(angle);
-            }
-            turns.displacement += DVec3::from_slice(root).length() / count;
-        }
-        turns
-    }
+    size
 }

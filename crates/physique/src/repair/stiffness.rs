@@ -29,9 +29,10 @@ pub(super) struct Stiffness {
 }
 
 impl Stiffness {
-    /// For a motion of so many frames; all but arms, neck and head is `bearing` times stiffer.
-    pub(super) fn new(frames: usize, rate: FrameRate, bearing: f64) -> Self {
-        let matrix = matrix(frames, TIME * rate.per_second());
+    /// For a motion of so many frames; all but arms, neck and head is `bearing` times stiffer, and
+    /// changes must be `smooth` times slower.
+    pub(super) fn new(frames: usize, rate: FrameRate, bearing: f64, smooth: f64) -> Self {
+        let matrix = matrix(frames, smooth * TIME * rate.per_second());
         Self {
             factors: factorise(&matrix),
             matrix,
@@ -61,6 +62,13 @@ impl Stiffness {
             }
         }
         cost
+    }
+
+    /// Curvature by an unknown of a frame, and by it and that of the next and the second next.
+    pub(super) fn curvature(&self, unknown: usize, frame: usize) -> impl Iterator<Item = f64> {
+        let frames = self.matrix[0].len();
+        let bands = self.matrix.iter().take(frames - frame);
+        bands.map(move |band| self.scales[unknown] * band[frame])
     }
 
     /// Solves for the change whose gradient this is, in place: the steepest way down when small
@@ -154,7 +162,7 @@ mod tests {
     fn solving_undoes_the_gradient() {
         for frames in [1, 2, 3, 40] {
             let rate = FrameRate::new(30.0).unwrap();
-            let stiffness = Stiffness::new(frames, rate, 2.5);
+            let stiffness = Stiffness::new(frames, rate, 2.5, 1.0);
             let change: Vec<_> = (0..frames * UNKNOWNS)
                 .map(|place| (place as f64 * 0.7).sin())
                 .collect();
@@ -173,7 +181,7 @@ mod tests {
     #[test]
     fn a_steady_change_costs_by_its_size_only() {
         let rate = FrameRate::new(60.0).unwrap();
-        let stiffness = Stiffness::new(30, rate, 1.0);
+        let stiffness = Stiffness::new(30, rate, 1.0, 1.0);
         let mut change = vec![0.0; 30 * UNKNOWNS];
         let elbow = 3 * Joint::LeftElbow.index();
         for frame in 0..30 {
