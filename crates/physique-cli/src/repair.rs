@@ -9,10 +9,10 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Result, bail};
+use physique::Repairer;
 use physique::export::{ExportOptions, Provenance, export};
 use physique::load::{LoadOptions, Loaded, load, load_each};
 use physique::repair::{Outcome, RepairHead, RepairReport, RepairedMotion};
-use physique::Repairer;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -94,7 +94,9 @@ fn print(motions: &[RepairedMotion], target: &Target, output: &Path, start: Inst
     ];
     let told = outcomes.map(|(outcome, words)| (count(outcome), words));
     let told = told.iter().filter(|(count, _)| *count > 0);
-    let told: Vec<_> = told.map(|(count, words)| format!("{count} {words}")).collect();
+    let told: Vec<_> = told
+        .map(|(count, words)| format!("{count} {words}"))
+        .collect();
     println!("{}: {}, {seconds:.1} s", output.display(), told.join(", "));
 }
 

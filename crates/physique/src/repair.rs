@@ -79,7 +79,7 @@ impl Default for RepairOptions {
         Self {
             targets: Targets::ALL,
             strength: 1.0,
-            rounds: 6,
+            rounds: 7,
             steps: 40,
         }
     }

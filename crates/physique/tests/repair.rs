@@ -7,8 +7,8 @@ use physique::body::{Body, Joint, Sex, open_body};
 use physique::measures::measures;
 use physique::motion::{FrameRate, Motion, embedded};
 use physique::proxy::open_proxy;
-use physique::repair::PROMISE;
-use physique::{MotionScore, RepairOptions, Repairer};
+use physique::repair::{Outcome, PROMISE, Targets};
+use physique::{MotionScore, RepairOptions, Repaired, Repairer};
 
 static REPAIRER: LazyLock<Repairer> = LazyLock::new(|| {
     let body = Body::mean(open_body().expect("embedded"), Sex::Neutral).expect("mean");
@@ -33,32 +33,162 @@ fn mean_cm3(score: &MotionScore) -> f64 {
     found.expect("measured").mean_cm3
 }
 
-/// Real motion: what is promised holds, and what is told is what was returned.
+fn embedded(name: &str) -> Motion {
+    let clip = embedded::clip(name).expect("embedded");
+    clip.load().expect("readable").motion
+}
+
+/// What is promised holds, and what is told is what was returned.
+fn assert_promise_kept(name: &str, source: &Motion, repaired: &Repaired) {
+    let scored = physique::score(&repaired.motion, REPAIRER.body()).expect("scorable");
+    assert_eq!(scored, repaired.after, "{name}");
+    let after = measures(&repaired.after);
+    for (measure, before) in measures(&repaired.before) {
+        let Some(promise) = PROMISE.iter().find(|promise| promise.measure == measure) else {
+            continue;
+        };
+        let found = after.iter().find(|(other, _)| *other == measure);
+        let (_, after) = found.expect("kept");
+        let sign = if promise.greater_is_better { -1.0 } else { 1.0 };
+        assert!(
+            sign * (after - before) <= promise.allowed(before),
+            "{name}: {measure} {before} to {after}"
+        );
+    }
+    let changed = repaired.motion != *source;
+    let told = matches!(
+        repaired.outcome,
+        Outcome::Repaired | Outcome::RepairedInPart
+    );
+    assert_eq!(changed, told, "{name}: {:?}", repaired.outcome);
+}
+
+/// Smooth damage of every joint and the root, always the same for a seed.
+fn damaged(source: &Motion, seed: u32, degrees: f32) -> Motion {
+    let noise = |place: usize, frame: usize| {
+        let phase = (place as f32 * 12.9898 + seed as f32 * 78.233).sin() * 43.758;
+        (phase + frame as f32 * 0.15 * (1.0 + 0.1 * phase.sin())).sin()
+    };
+    let mut rotations = source.rotations().to_vec();
+    for (place, rotation) in rotations.iter_mut().enumerate() {
+        let (frame, joint) = (place / Joint::COUNT, place % Joint::COUNT);
+        let axis = [0, 1, 2].map(|axis| noise(3 * joint + axis, frame));
+        let turn = Vec3::from(axis) * degrees.to_radians();
+        *rotation = (Quat::from_scaled_axis(turn) * *rotation).normalize();
+    }
+    let root = source.root_translation().iter().enumerate();
+    let root = root.map(|(frame, root)| *root + Vec3::Y * (0.02 * noise(99, frame)));
+    Motion::new(source.frame_rate(), None, root.collect(), rotations).expect("finite")
+}
+
 #[test]
 fn nothing_gets_worse_and_what_is_told_is_what_is_returned() {
-    for name in ["jump", "walk"] {
-        let clip = embedded::clip(name);
-        let source = clip.expect("embedded").load().expect("readable").motion;
+    for name in ["jump", "walk", "run"] {
+        let source = embedded(name);
         let repaired = REPAIRER.repair(&source).expect("scorable");
-        let scored = physique::score(&repaired.motion, REPAIRER.body()).expect("scorable");
-        assert_eq!(scored, repaired.after, "{name}");
-        let after = measures(&repaired.after);
-        for (measure, before) in measures(&repaired.before) {
-            let Some(promise) = PROMISE.iter().find(|promise| promise.measure == measure) else {
-                continue;
-            };
-            let (_, after) = after
-                .iter()
-                .find(|(other, _)| *other == measure)
-                .expect("kept");
-            let sign = if promise.greater_is_better { -1.0 } else { 1.0 };
-            let most = promise.relative * before.abs() + promise.absolute;
-            assert!(
-                sign * (after - before) <= most,
-                "{name}: {measure} {before} to {after}"
-            );
-        }
+        assert_promise_kept(name, &source, &repaired);
     }
+}
+
+#[test]
+fn nothing_gets_worse_whatever_the_damage() {
+    for (seed, degrees) in [(1, 6.0), (2, 12.0), (3, 25.0)] {
+        let source = damaged(&embedded("walk"), seed, degrees);
+        let repaired = REPAIRER.repair(&source).expect("scorable");
+        assert_promise_kept(&format!("walk, damage {seed}"), &source, &repaired);
+    }
+}
+
+#[test]
+fn the_result_is_the_same_for_any_number_of_threads() {
+    let source = damaged(&embedded("walk"), 4, 10.0);
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().expect("threads");
+        pool.install(|| REPAIRER.repair(&source)).expect("scorable")
+    };
+    let one = with(1);
+    assert!(matches!(
+        one.outcome,
+        Outcome::Repaired | Outcome::RepairedInPart
+    ));
+    assert_eq!(one, with(3));
+}
+
+#[test]
+fn sound_motion_stays_as_it_is_to_the_bit() {
+    let frames = 40;
+    let mut pose = [Quat::IDENTITY; Joint::COUNT];
+    pose[Joint::LeftShoulder.index()] = Quat::from_rotation_z(-0.9);
+    pose[Joint::RightShoulder.index()] = Quat::from_rotation_z(0.9);
+    let rate = FrameRate::new(30.0).expect("a rate");
+    let root = vec![standing(); frames];
+    let source = Motion::new(rate, None, root, pose.repeat(frames)).expect("finite");
+    let repaired = REPAIRER.repair(&source).expect("scorable");
+    assert_eq!(repaired.outcome, Outcome::Sound);
+    assert_eq!(repaired.motion, source);
+    assert_eq!(repaired.change.frames_percent, 0.0);
+}
+
+#[test]
+fn single_frames_are_repaired_too() {
+    let mut pose = [Quat::IDENTITY; Joint::COUNT];
+    pose[Joint::LeftShoulder.index()] = Quat::from_rotation_z(-1.2);
+    pose[Joint::LeftElbow.index()] = Quat::from_rotation_z(-1.2);
+    let rate = FrameRate::new(120.0).expect("a rate");
+    for frames in [1, 2, 5] {
+        let root = vec![standing(); frames];
+        let source = Motion::new(rate, None, root, pose.repeat(frames)).expect("finite");
+        let repaired = REPAIRER.repair(&source).expect("scorable");
+        assert_promise_kept("folded arm", &source, &repaired);
+        let (before, after) = (mean_cm3(&repaired.before), mean_cm3(&repaired.after));
+        assert!(after < 0.2 * before, "{frames} frames: {before} to {after}");
+    }
+}
+
+#[test]
+fn only_what_is_asked_for_is_repaired() {
+    let body = REPAIRER.body().clone();
+    let proxy = open_proxy().expect("embedded");
+    let spheres = proxy.of_body(&body).expect("in range");
+    let options = RepairOptions {
+        targets: Targets {
+            self_intersection: false,
+            ground: false,
+            feet: true,
+        },
+        ..RepairOptions::default()
+    };
+    let pairs = proxy.pairs().expect("few");
+    let feet_only = Repairer::new(body, spheres, &pairs, options).expect("they fit");
+    let source = arm_in_belly();
+    let repaired = feet_only.repair(&source).expect("scorable");
+    assert_eq!(repaired.outcome, Outcome::Sound);
+    assert_eq!(repaired.motion, source);
+}
+
+/// A walk over a belt that runs: planted feet are carried along.
+#[test]
+fn feet_that_slide_slide_less() {
+    let walk = embedded("walk");
+    let frame_s = walk.frame_rate().frame_seconds() as f32;
+    let root = walk.root_translation().iter().enumerate();
+    let root = root.map(|(frame, root)| *root + Vec3::X * (0.1 * frame as f32 * frame_s));
+    let rotations = walk.rotations().to_vec();
+    let source = Motion::new(walk.frame_rate(), None, root.collect(), rotations).expect("finite");
+    let repaired = REPAIRER.repair(&source).expect("scorable");
+    let slide = |score: &MotionScore| score.feet.as_ref().expect("measured").slide_mean_cm_s;
+    let (clean, before, after) = (
+        slide(&physique::score(&walk, REPAIRER.body()).expect("scorable")),
+        slide(&repaired.before),
+        slide(&repaired.after),
+    );
+    assert!(before > clean + 3.0, "{clean} {before}");
+    assert!(
+        after < before - 0.6 * (before - clean),
+        "{clean}: {before} to {after}, {:?}",
+        repaired.held_back_by
+    );
 }
 
 /// Stands for eight seconds and slowly lays the left forearm across the belly, a little too deep.
@@ -109,7 +239,7 @@ fn a_sunken_body_is_lifted() {
     let repaired = REPAIRER.repair(&source).expect("scorable");
     let depth = |score: &MotionScore| score.ground.as_ref().expect("measured").penetration_mean_cm;
     assert!((depth(&repaired.before) - 3.0).abs() < 0.01);
-    assert!(depth(&repaired.after) < 0.5, "{}", depth(&repaired.after));
+    assert!(depth(&repaired.after) < 0.2, "{}", depth(&repaired.after));
 }
 
 #[test]

@@ -59,11 +59,7 @@ impl Plan {
     ///
     /// Fails where the format is not told, where two inputs would go to one output, and where an
     /// output would replace an input.
-    pub(crate) fn new(
-        inputs: &[PathBuf],
-        output: &Path,
-        to: Option<FormatName>,
-    ) -> Result<Self> {
+    pub(crate) fn new(inputs: &[PathBuf], output: &Path, to: Option<FormatName>) -> Result<Self> {
         let one_file = matches!(inputs,
             [input] if !input.is_dir() && (input.exists() || !is_pattern(input)));
         let ends_as_folder = output.to_string_lossy().ends_with(['/', '\\']);

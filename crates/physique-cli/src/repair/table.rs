@@ -51,7 +51,11 @@ pub(crate) fn of_one(motion: &RepairedMotion) -> String {
 
 /// What to say of how it ended, beside the figures.
 pub(crate) fn verdict(motion: &RepairedMotion) -> String {
-    let worse: Vec<_> = motion.held_back_by.iter().map(ToString::to_string).collect();
+    let worse: Vec<_> = motion
+        .held_back_by
+        .iter()
+        .map(ToString::to_string)
+        .collect();
     let worse = worse.join(", ");
     match motion.outcome {
         Outcome::Sound => "Nothing to repair: the motion stays as it is.".to_owned(),
@@ -60,7 +64,9 @@ pub(crate) fn verdict(motion: &RepairedMotion) -> String {
             format!("Repaired in part: going further would have brought {worse}.")
         }
         Outcome::HeldBack => {
-            format!("Held back: every repair would have brought {worse}. The motion stays as it is.")
+            format!(
+                "Held back: every repair would have brought {worse}. The motion stays as it is."
+            )
         }
         Outcome::Failed => {
             let reason = motion.failure.as_deref().unwrap_or_default();
@@ -107,9 +113,7 @@ pub(crate) fn of_many(motions: &[RepairedMotion]) -> String {
         let mut row = vec![motion.name.clone()];
         for shown in &SHOWN {
             for score in [&motion.before, &motion.after] {
-                let figure = score
-                    .as_ref()
-                    .and_then(|score| value(score, shown.measure));
+                let figure = score.as_ref().and_then(|score| value(score, shown.measure));
                 row.push(figure.map_or("–".to_owned(), |figure| {
                     format!("{figure:.*}", shown.digits)
                 }));

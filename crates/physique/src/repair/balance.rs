@@ -41,7 +41,12 @@ struct Frame {
 impl Balance {
     /// `distances` are the signed distances of the source's zero moment point to its base of
     /// support, in metres; `None` where that is not judged.
-    pub(super) fn of(source: &[Pose], frame_s: f64, feet: &Feet, distances: &[Option<f64>]) -> Self {
+    pub(super) fn of(
+        source: &[Pose],
+        frame_s: f64,
+        feet: &Feet,
+        distances: &[Option<f64>],
+    ) -> Self {
         let heights: f64 = source.iter().map(|pose| pose.centre.y).sum();
         let height = heights / source.len().max(1) as f64;
         let frames = feet.contacts.iter().enumerate().map(|(frame, contacts)| {
@@ -55,7 +60,10 @@ impl Balance {
         });
         Self {
             centres: source.iter().map(|pose| on_ground(pose.centre)).collect(),
-            soles: source.iter().map(|pose| pose.soles.map(on_ground)).collect(),
+            soles: source
+                .iter()
+                .map(|pose| pose.soles.map(on_ground))
+                .collect(),
             frames: frames.collect(),
             inertia: height / (GRAVITY * frame_s * frame_s),
         }
@@ -103,6 +111,11 @@ impl Balance {
     pub(super) fn curvature(&self, frame: usize) -> Option<f64> {
         let judged = self.frames.get(frame).is_some_and(|frame| frame.judged);
         judged.then_some(POINT)
+    }
+
+    /// Share of each sole point in the support of a frame.
+    pub(super) fn shares(&self, frame: usize) -> &[f64; SOLE_POINTS] {
+        &self.frames[frame].shares
     }
 
     /// Derivatives of a zero moment point by the centres of mass of the frame before, its own

@@ -99,7 +99,11 @@ mod tests {
         for (size, width) in [(1, 0), (5, 4), (40, 11), (60, 25)] {
             let entry = |row: usize, column: usize| {
                 let off = ((row * 7 + column * 3) as f64).sin();
-                if row == column { 3.0 * width as f64 + 4.0 } else { off }
+                if row == column {
+                    3.0 * width as f64 + 4.0
+                } else {
+                    off
+                }
             };
             let mut matrix = Banded::new(size, width);
             let expected: Vec<f64> = (0..size).map(|row| (row as f64).cos()).collect();

@@ -42,7 +42,9 @@ impl Blend {
 
     /// From `base`, as far towards `change` as windows keep; both by knots.
     pub(super) fn between(&self, base: &[f64], change: &[f64], knot_s: f64) -> Vec<f64> {
-        let frames = base.chunks_exact(UNKNOWNS).zip(change.chunks_exact(UNKNOWNS));
+        let frames = base
+            .chunks_exact(UNKNOWNS)
+            .zip(change.chunks_exact(UNKNOWNS));
         let mut blended = Vec::with_capacity(base.len());
         for (knot, (base, change)) in frames.enumerate() {
             let kept = self.at(knot as f64 * knot_s);
@@ -157,15 +159,17 @@ fn badness(series: &Series, promise: &Tolerance, before: f64) -> Vec<f64> {
         "ground_unsupported_percent" => {
             let support = series.support.iter().flatten();
             let nothing = |support: &SupportName| *support == SupportName::Nothing;
-            support.map(|name| f64::from(u8::from(nothing(name)))).collect()
+            support
+                .map(|name| f64::from(u8::from(nothing(name))))
+                .collect()
         }
         "feet_slide_mean_cm_s" => values(slides, |slide| slide),
         "feet_slide_frames_percent" => values(slides, |slide| {
             f64::from(u8::from(slide > VISIBLE_SLIDE_CM_S))
         }),
-        "balance_stable_percent" => distances(series, |distance| {
-            f64::from(u8::from(distance >= 0.0))
-        }),
+        "balance_stable_percent" => {
+            distances(series, |distance| f64::from(u8::from(distance >= 0.0)))
+        }
         "balance_outside_mean_cm" => distances(series, |distance| distance.max(0.0)),
         "smoothness_jerk_mean_m_s3" | "smoothness_jitter_mean_mm" => {
             let jerks = series.jerk_m_s3.iter().flatten();

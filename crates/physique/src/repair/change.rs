@@ -51,9 +51,8 @@ impl Source {
     pub(super) fn poses(&self, figure: &Figure, change: &[f64]) -> Vec<Pose> {
         let frames = (0..self.frame_count()).into_par_iter();
         let pose = |frame| {
-            let rotations = std::array::from_fn(|joint| {
-                DMat3::from_quat(self.rotation(change, frame, joint))
-            });
+            let rotations =
+                std::array::from_fn(|joint| DMat3::from_quat(self.rotation(change, frame, joint)));
             let root = self.root[frame] + vector(change, frame, Joint::COUNT);
             figure.pose(rotations, root)
         };

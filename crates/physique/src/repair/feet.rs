@@ -111,7 +111,10 @@ impl Feet {
 
     /// Curvature by the difference of a point's places in a frame and the next, along each axis.
     pub(super) fn step_weight(&self, frame: usize, point: usize) -> DVec3 {
-        let weight = self.steps.get(frame).map_or(0.0, |steps| steps[point].weight);
+        let weight = self
+            .steps
+            .get(frame)
+            .map_or(0.0, |steps| steps[point].weight);
         LEVEL * LEVEL * (VELOCITY * weight / (self.frame_s * self.frame_s))
     }
 }

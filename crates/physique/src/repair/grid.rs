@@ -106,7 +106,11 @@ mod tests {
             }
             let steady = grid.at_frames(&vec![0.3; change.len()]);
             assert!(steady.iter().all(|value| (value - 0.3).abs() < 1e-12));
-            assert!(grid.at_frames(&vec![0.0; change.len()]).iter().all(|&v| v == 0.0));
+            assert!(
+                grid.at_frames(&vec![0.0; change.len()])
+                    .iter()
+                    .all(|&v| v == 0.0)
+            );
         }
     }
 

@@ -69,22 +69,26 @@ impl Cost for Objective<'_> {
             .zip(at.par_chunks_exact(UNKNOWNS))
             .enumerate()
             .with_min_len(FRAMES_A_TASK)
-            .map_init(Wrenches::default, |wrenches, (frame, (gradient, change))| {
-                let pose = &poses[frame];
-                wrenches.clear(&self.figure.rig);
-                let cost = self.push(frame, pose, wrenches);
-                let world = &pose.world_from_rest;
-                for (sole, force) in self.figure.soles().iter().zip(soles[frame]) {
-                    wrenches.push_skin(sole, world, force);
-                }
-                wrenches.push_centre(&self.figure.moments, world, centres[frame]);
-                let mut turns = by_poses[frame].map_or([DVec3::ZERO; Joint::COUNT], |by_pose| {
-                    turns_of(&by_pose, pose)
-                });
-                let root = wrenches.carry(&self.figure.rig, world, &mut turns);
-                add_turns(change, &turns, root, gradient);
-                cost
-            })
+            .map_init(
+                Wrenches::default,
+                |wrenches, (frame, (gradient, change))| {
+                    let pose = &poses[frame];
+                    wrenches.clear(&self.figure.rig);
+                    let cost = self.push(frame, pose, wrenches);
+                    let world = &pose.world_from_rest;
+                    for (sole, force) in self.figure.soles().iter().zip(soles[frame]) {
+                        wrenches.push_skin(sole, world, force);
+                    }
+                    wrenches.push_centre(&self.figure.moments, world, centres[frame]);
+                    let mut turns = by_poses[frame]
+                        .map_or([DVec3::ZERO; Joint::COUNT], |by_pose| {
+                            turns_of(&by_pose, pose)
+                        });
+                    let root = wrenches.carry(&self.figure.rig, world, &mut turns);
+                    add_turns(change, &turns, root, gradient);
+                    cost
+                },
+            )
             .collect();
         cost += of_frames.iter().sum::<f64>();
         if cost.is_finite() { cost } else { f64::MAX }
@@ -107,7 +111,10 @@ impl Objective<'_> {
         if active.is_empty() {
             return Some((0.0, by_frames));
         }
-        let matrices: Vec<_> = active.iter().map(|&frame| matrices(&poses[frame])).collect();
+        let matrices: Vec<_> = active
+            .iter()
+            .map(|&frame| matrices(&poses[frame]))
+            .collect();
         let scale = (DEPTH * self.weights.spheres) as f32;
         let weights = active.iter().map(|&frame| scale * self.self_weights[frame]);
         let weights: Vec<_> = weights.collect();
@@ -160,3 +167,6 @@ fn turns_of(by_pose: &PoseMatrices, pose: &Pose) -> [DVec3; Joint::COUNT] {
         )
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -76,10 +76,7 @@ impl Preconditioner {
         for frame in gradient.chunks_exact(UNKNOWNS) {
             tied.extend(unknowns().map(|unknown| frame[unknown]));
         }
-        rayon::join(
-            || self.tied.solve(&mut tied),
-            || stiffness.solve(gradient),
-        );
+        rayon::join(|| self.tied.solve(&mut tied), || stiffness.solve(gradient));
         for (frame, tied) in gradient
             .chunks_exact_mut(UNKNOWNS)
             .zip(tied.chunks_exact(SIZE))
@@ -124,9 +121,8 @@ impl Rows {
                     row(&|wrenches| wrenches.push_skin(&figure.skin[sole], world, axis))
                 })
             }),
-            centre: [DVec3::X, DVec3::Z].map(|axis| {
-                row(&|wrenches| wrenches.push_centre(&figure.moments, world, axis))
-            }),
+            centre: [DVec3::X, DVec3::Z]
+                .map(|axis| row(&|wrenches| wrenches.push_centre(&figure.moments, world, axis))),
         }
     }
 }
@@ -151,11 +147,20 @@ fn add_balance(matrix: &mut Banded, rows: &[Rows], balance: &Balance, weight: f6
     let Some(curvature) = balance.curvature(frame) else {
         return;
     };
-    for axis in 0..2 {
-        let terms: [_; 3] = std::array::from_fn(|tap| {
-            let neighbour = frame + tap - 1;
-            (neighbour, &rows[neighbour].centre[axis], balance.taps()[tap])
-        });
+    let [before, own, after] = balance.taps();
+    for (axis, sole_axis) in [(0, 0), (1, 2)] {
+        // The point moves with the soles.
+        let mut row = rows[frame].centre[axis].map(|slope| slope * own);
+        for (sole, share) in rows[frame].soles.iter().zip(balance.shares(frame)) {
+            for (slope, of_sole) in row.iter_mut().zip(&sole[sole_axis]) {
+                *slope -= share * of_sole;
+            }
+        }
+        let terms = [
+            (frame - 1, &rows[frame - 1].centre[axis], before),
+            (frame, &row, 1.0),
+            (frame + 1, &rows[frame + 1].centre[axis], after),
+        ];
         add_square(matrix, &terms, weight * curvature);
     }
 }

@@ -79,6 +79,22 @@ pub struct Worse {
     pub after: f64,
 }
 
+impl Worse {
+    /// By how many tolerances the promise is broken, beyond the one that is allowed.
+    pub(super) fn violation(&self) -> f64 {
+        let promise = PROMISE
+            .iter()
+            .find(|promise| promise.measure == self.measure);
+        let allowed = promise.map_or(0.0, |promise| promise.allowed(self.before));
+        let violation = (self.after - self.before).abs() / allowed - 1.0;
+        if violation.is_finite() {
+            violation
+        } else {
+            10.0
+        }
+    }
+}
+
 impl fmt::Display for Worse {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {

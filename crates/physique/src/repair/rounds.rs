@@ -62,7 +62,7 @@ pub(super) struct Rounds<'a> {
 struct Taken {
     best: Option<Candidate>,
     least: f64,
-    /// What mends most, of all that break the promise.
+    /// What mends most and breaks least, of all that break the promise.
     broken: Option<Candidate>,
     rounds: usize,
 }
@@ -72,8 +72,8 @@ impl Taken {
     /// another round is worth its while.
     fn offer(&mut self, candidate: Candidate) -> bool {
         if !candidate.worse.is_empty() {
-            let least = self.broken.as_ref().map_or(f64::MAX, |broken| broken.faults);
-            if candidate.faults < least {
+            let least = self.broken.as_ref().map_or(f64::MAX, price);
+            if price(&candidate) < least {
                 self.broken = Some(candidate);
             }
             return true;
@@ -90,9 +90,15 @@ impl Taken {
 
     /// What breaks the promise, and mends so much more that it matters.
     fn better_but_broken(&mut self) -> Option<Candidate> {
-        let most = (1.0 - BLENDED) * self.least;
+        let most = ((1.0 - BLENDED) * self.least).min(self.least - INVISIBLE);
         self.broken.take_if(|broken| broken.faults < most)
     }
+}
+
+/// Faults that are left, and more for a broken promise.
+fn price(broken: &Candidate) -> f64 {
+    let violation: f64 = broken.worse.iter().map(Worse::violation).sum();
+    broken.faults * (1.0 + violation)
 }
 
 impl<'a> Rounds<'a> {
@@ -155,7 +161,9 @@ impl<'a> Rounds<'a> {
             self.blend(&self.knots, &broken, &mut taken, progress)?;
         }
         // What keeps the promise at the knots may break it between them.
-        if let (Some(whole), Some(best)) = (&self.whole, taken.best.take()) {
+        if let Some(whole) = &self.whole
+            && let Some(best) = taken.best.take()
+        {
             let best = whole.measure(best.change)?;
             taken.least = f64::MAX;
             if best.worse.is_empty() {

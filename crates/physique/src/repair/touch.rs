@@ -50,9 +50,7 @@ impl Touches {
         };
         let centres = |pose: &Pose| -> Vec<DVec3> {
             let spheres = touches.spheres.iter();
-            spheres
-                .map(|sphere| sphere_centre(sphere, pose))
-                .collect()
+            spheres.map(|sphere| sphere_centre(sphere, pose)).collect()
         };
         let posed: Vec<_> = source.par_iter().map(centres).collect();
         for frame in 0..source.len() {
