@@ -93,12 +93,12 @@ impl Feet {
                 forces[frame][point] -= force;
             }
         }
-        for (frame, pose) in poses.iter().enumerate() {
-            for point in 0..SOLE_POINTS {
+        for (frame, (pose, forces)) in poses.iter().zip(forces).enumerate() {
+            for (point, force) in forces.iter_mut().enumerate() {
                 let off = pose.soles[point] - self.places[frame][point];
                 let scale = self.place_weight(frame, point);
                 cost += 0.5 * scale * off.length_squared();
-                forces[frame][point] += off * scale;
+                *force += off * scale;
             }
         }
         cost
