@@ -61,6 +61,7 @@ write("offset_1e38.bvh", "HIERARCHY\nROOT a\n{\nOFFSET 0 3e38 0\nCHANNELS 3 Xpos
 write("angles_1e38.bvh", LEG.replace("0 80 0 0 0 0", "0 80 0 1e38 3e38 -1e38"))
 write("frame_time_nan.bvh", LEG.replace("0.05", "nan"))
 write("frame_time_1e-320.bvh", LEG.replace("0.05", "1e-320"))
+write("frame_time_1e-30.bvh", LEG.replace("0.05", "1e-30"))
 write("not_utf8.bvh", LEG.encode().replace(b"Leg", b"\xff\xfe\xc0\x80"))
 write("zeros.bvh", LEG.encode().replace(b"0 80 0", b"0 8\x000 0"))
 write("name_without_end.bvh", "HIERARCHY\nROOT " + "a" * 20000)

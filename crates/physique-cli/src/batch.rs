@@ -4,12 +4,13 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use rayon::prelude::*;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use crate::exclude::Excluded;
 use crate::journal::Journal;
 use crate::progress::Progress;
 
@@ -44,6 +45,7 @@ impl FromStr for Shard {
 pub(crate) struct Job {
     /// This run's share, in the order of the whole.
     pub(crate) files: Vec<PathBuf>,
+    pub(crate) excluded: Excluded,
     pub(crate) identity: JobIdentity,
 }
 
@@ -54,18 +56,19 @@ pub(crate) struct JobIdentity {
     pub(crate) shard: Option<Shard>,
     /// Files of the whole job.
     pub(crate) files: usize,
-    /// SHA-256 over names and sizes of the files of the whole job, in order.
+    /// SHA-256 over names and sizes of the files of the whole job, in order, and over the motions
+    /// that are left out.
     pub(crate) files_sha256: String,
 }
 
 impl Job {
     /// Every `count`th file is this shard's: long and short clips, which are often neighbours,
     /// spread evenly, and merged parts are in order again.
-    pub(crate) fn new(all: Vec<PathBuf>, shard: Option<Shard>) -> Self {
+    pub(crate) fn new(all: Vec<PathBuf>, excluded: Excluded, shard: Option<Shard>) -> Self {
         let identity = JobIdentity {
             shard,
             files: all.len(),
-            files_sha256: hash(&all),
+            files_sha256: hash(&all, &excluded),
         };
         let files = match shard {
             None => all,
@@ -73,7 +76,11 @@ impl Job {
                 all.into_iter().skip(index - 1).step_by(count).collect()
             }
         };
-        Self { files, identity }
+        Self {
+            files,
+            excluded,
+            identity,
+        }
     }
 
     /// Looks at every file, several at a time, in order. `work` gives the rows of a file; those
@@ -126,7 +133,7 @@ impl Job {
 }
 
 /// Over names and sizes: a file that cannot be asked for its size counts as empty.
-fn hash(files: &[PathBuf]) -> String {
+fn hash(files: &[PathBuf], excluded: &Excluded) -> String {
     let mut hash = Sha256::new();
     for file in files {
         let size = std::fs::metadata(file).map_or(0, |metadata| metadata.len());
@@ -134,27 +141,16 @@ fn hash(files: &[PathBuf]) -> String {
         hash.update([0]);
         hash.update(size.to_le_bytes());
     }
+    for motion in excluded.motions() {
+        hash.update(motion.as_os_str().as_encoded_bytes());
+        hash.update([0]);
+    }
     let mut text = String::new();
     for byte in hash.finalize() {
         // Writing to a string cannot fail.
         let _ = write!(text, "{byte:02x}");
     }
     text
-}
-
-/// The files without those that a list names, one a line.
-pub(crate) fn without(files: Vec<PathBuf>, list: Option<&Path>) -> Result<Vec<PathBuf>> {
-    let Some(list) = list else { return Ok(files) };
-    let text = std::fs::read_to_string(list).with_context(|| list.display().to_string())?;
-    let excluded: std::collections::HashSet<_> = text.lines().map(Path::new).collect();
-    let left: Vec<_> = files
-        .into_iter()
-        .filter(|file| !excluded.contains(file.as_path()))
-        .collect();
-    if left.is_empty() {
-        bail!("{}: no file is left", list.display());
-    }
-    Ok(left)
 }
 
 #[cfg(test)]
@@ -174,7 +170,13 @@ mod tests {
     #[test]
     fn shards_share_out_every_file_once() {
         let all: Vec<PathBuf> = (0..11).map(|i| PathBuf::from(format!("{i:02}"))).collect();
-        let parts = (1..=4).map(|index| Job::new(all.clone(), Some(Shard { index, count: 4 })));
+        let parts = (1..=4).map(|index| {
+            Job::new(
+                all.clone(),
+                Excluded::default(),
+                Some(Shard { index, count: 4 }),
+            )
+        });
         let parts: Vec<_> = parts.collect();
         assert!(
             parts
@@ -184,7 +186,7 @@ mod tests {
         let mut together: Vec<_> = parts.iter().flat_map(|part| part.files.clone()).collect();
         together.sort();
         assert_eq!(together, all);
-        let whole = Job::new(all, None).identity;
+        let whole = Job::new(all, Excluded::default(), None).identity;
         assert!(
             parts
                 .iter()

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use physique::motion::arrays::is_statistics_file;
 
 /// Endings that a search of a folder picks up; a file named outright may have any.
 const ENDINGS: [&str; 7] = ["amc", "bvh", "glb", "npy", "npz", "pkl", "pt"];
@@ -24,13 +25,16 @@ pub(crate) fn motion_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {
 
 /// Files as given; folders are replaced by the motion files below them, patterns such as
 /// `data/**/*.bvh` (for shells that do not expand them) by what they match; sorted, and each once.
-/// Nothing below the folder `except` is found by a search.
+/// Nothing below the folder `except` is found by a search, nor means and deviations of features,
+/// which are counted on standard error.
 pub(crate) fn find_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<FoundFile>> {
     let except = except.and_then(|folder| folder.canonicalize().ok());
     let (mut files, mut seen) = (Vec::new(), HashSet::new());
+    let mut statistics = Vec::new();
     for path in paths {
         let found = if path.is_dir() {
             let found = search(path, except.as_deref())?;
+            let found = without_statistics(found, &mut statistics);
             if found.is_empty() {
                 bail!(
                     "{}: no motion files (.{}) in this folder",
@@ -42,7 +46,7 @@ pub(crate) fn find_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec
         } else if path.exists() || !is_pattern(path) {
             vec![path.clone()]
         } else {
-            matches(path, except.as_deref())?
+            without_statistics(matches(path, except.as_deref())?, &mut statistics)
         };
         let root = root_of(path);
         for path in found {
@@ -52,7 +56,41 @@ pub(crate) fn find_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec
             }
         }
     }
+    tell_of(&statistics);
     Ok(files)
+}
+
+/// Motions apart from the arrays of statistics that lie among them in data sets.
+fn without_statistics(files: Vec<PathBuf>, statistics: &mut Vec<PathBuf>) -> Vec<PathBuf> {
+    let is_npy = |path: &Path| {
+        path.extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("npy"))
+    };
+    let (passed_over, motions) = files
+        .into_iter()
+        .partition(|path| is_npy(path) && is_statistics_file(path));
+    statistics.extend::<Vec<_>>(passed_over);
+    motions
+}
+
+fn tell_of(statistics: &[PathBuf]) {
+    const SHOWN: usize = 4;
+    let shown = statistics
+        .iter()
+        .take(SHOWN)
+        .map(|path| path.display().to_string());
+    let shown = shown.collect::<Vec<_>>().join(", ");
+    match statistics.len() {
+        0 => {}
+        1 => eprintln!("passed over: {shown} is the mean or deviation of a data set, no motion"),
+        count => {
+            let more = if count > SHOWN { ", ..." } else { "" };
+            eprintln!(
+                "passed over: {count} files are means or deviations of data sets, no motions: \
+                 {shown}{more}"
+            );
+        }
+    }
 }
 
 /// Whether a path that does not exist is meant as a pattern.

@@ -5,6 +5,7 @@ mod batch;
 mod body_choice;
 mod convert;
 mod demo;
+mod exclude;
 mod exit;
 mod files;
 mod inspect;

@@ -12,6 +12,7 @@ use physique_files::write_file;
 use serde::Serialize;
 
 use crate::batch::{Job, JobIdentity};
+use crate::exclude::Excluded;
 use crate::exit::Exit;
 use crate::files::motion_files;
 use crate::journal::Journal;
@@ -28,7 +29,8 @@ pub(crate) fn run(arguments: &ScanArguments) -> Result<Exit> {
     let body = arguments.body.body()?;
     let kinds = arguments.look.kinds();
     let scanner = Scanner::new(&body, arguments.look.limits(), &kinds)?;
-    let job = Job::new(motion_files(&arguments.files)?, arguments.shard);
+    let files = motion_files(&arguments.files)?;
+    let job = Job::new(files, Excluded::default(), arguments.shard);
     let options = load_options(&arguments.read)?;
 
     let identity = RunIdentity {

@@ -16,7 +16,8 @@ use physique::{Report, Scorer};
 use physique_files::write_file;
 use serde::Serialize;
 
-use crate::batch::{Job, JobIdentity, without};
+use crate::batch::{Job, JobIdentity};
+use crate::exclude::{Excluded, without};
 use crate::exit::Exit;
 use crate::files::motion_files;
 use crate::journal::Journal;
@@ -71,8 +72,8 @@ fn score(
         .options(output.series || output.frames.is_some());
     let scorer = Scorer::new(arguments.body.body()?, options)?;
     let files = motion_files(&arguments.files)?;
-    let files = without(files, arguments.batch.exclude.as_deref())?;
-    let job = Job::new(files, arguments.batch.shard);
+    let (files, excluded) = without(files, arguments.batch.exclude.as_deref())?;
+    let job = Job::new(files, excluded, arguments.batch.shard);
     let load_options = load_options(&arguments.read)?;
 
     let head = ReportHead::new(scorer.options(), scorer.body());
@@ -90,7 +91,7 @@ fn score(
         .map(|path| Journal::open(path, &identity))
         .transpose()?;
     let (motions, journal) = job.run(journal, |file, progress| {
-        score_file(&scorer, file, &load_options, |frames| {
+        score_file(&scorer, file, &load_options, &job.excluded, |frames| {
             progress.frames(frames)
         })
     })?;
@@ -102,6 +103,7 @@ fn score_file(
     scorer: &Scorer,
     path: &Path,
     options: &LoadOptions,
+    excluded: &Excluded,
     progress: impl Fn(usize) + Sync,
 ) -> Vec<MotionReport> {
     let file = path.display().to_string();
@@ -113,7 +115,10 @@ fn score_file(
         Ok(motions) if motions.is_empty() => {
             return vec![unscorable(whole(), format!("{file} holds no motion."))];
         }
-        Ok(motions) => motions,
+        Ok(mut motions) => {
+            excluded.leave_out(path, &mut motions);
+            motions
+        }
         Err(problem) => return vec![unscorable(whole(), problem.to_string())],
     };
     let reports = motions.into_iter().map(|(name, loaded)| {

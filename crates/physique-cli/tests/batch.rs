@@ -163,3 +163,74 @@ fn bad_clips_are_left_out() {
         "{table}"
     );
 }
+
+/// Four motions of a generator in one file.
+fn generated(folder: &tempfile::TempDir) -> String {
+    let results = at(folder, "clips/results.npy");
+    fs::create_dir_all(folder.path().join("clips")).unwrap();
+    let fixture = "../physique-motion/tests/fixtures/arrays/mdm_results.npy";
+    fs::copy(fixture, &results).unwrap();
+    results
+}
+
+#[test]
+fn motions_of_a_file_are_left_out_by_their_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let (results, list) = (generated(&folder), at(&folder, "bad.txt"));
+    let lines = format!("{results}#1\n{results}#3\n{results}#9\nelsewhere/walk.bvh\n");
+    fs::write(&list, lines).unwrap();
+    let score = ["score", "--only", "feet", "--csv", "--exclude", &list];
+    let output = support::physique(&[&score[..], &[&results]].concat());
+    let (table, said) = (support::text(&output.stdout), support::text(&output.stderr));
+    let has = |key: u8| table.contains(&format!("results.npy#{key}"));
+    assert_eq!([0, 1, 2, 3].map(has), [true, false, true, false], "{table}");
+    for word in ["holds no results.npy#9", "1 of the lines"] {
+        assert!(said.contains(word), "{said}");
+    }
+    // A run with another list is another job.
+    let output = at(&folder, "part.jsonl");
+    let part = |more: &[&str]| {
+        let common = ["score", "--only", "feet", &results, "--shard", "1/1"];
+        succeeds(&[&common[..], more].concat());
+    };
+    part(&["-o", &output]);
+    let other = at(&folder, "other.jsonl");
+    part(&["-o", &other, "--exclude", &list]);
+    let jobs = [output, other].map(|path| {
+        let text = fs::read_to_string(path).unwrap();
+        let head = text.lines().next().unwrap();
+        let sum = head.split("files_sha256").nth(1).unwrap();
+        sum[..60].to_owned()
+    });
+    assert_ne!(jobs[0], jobs[1]);
+}
+
+#[test]
+fn statistics_among_motions_are_passed_over() {
+    let folder = tempfile::tempdir().unwrap();
+    generated(&folder);
+    let mean = at(&folder, "clips/Mean.npy");
+    for name in ["Mean.npy", "Std.npy"] {
+        let path = folder.path().join("clips").join(name);
+        let bytes = physique::motion::npz::npy_f32(&[263], &[0.5; 263]).unwrap();
+        fs::write(path, bytes).unwrap();
+    }
+    let clips = at(&folder, "clips");
+    let converted = at(&folder, "bvh");
+    for arguments in [
+        vec!["score", "--only", "feet", &clips],
+        vec!["scan", "--only", "unreadable", &clips],
+        vec!["inspect", &clips],
+        vec!["convert", &clips, &converted, "--to", "bvh"],
+    ] {
+        let output = support::physique(&arguments);
+        let said = support::text(&output.stderr);
+        assert!(output.status.success(), "{arguments:?}: {said}");
+        for word in ["2 files", "Mean.npy", "Std.npy"] {
+            assert!(said.contains(word), "{arguments:?}: {said}");
+        }
+        assert!(!support::text(&output.stdout).contains("Mean"));
+    }
+    let said = fails(1, &["score", "--only", "feet", &mean]);
+    assert!(said.contains("--mean or --std"), "{said}");
+}

@@ -5,13 +5,14 @@
 //! | file | content |
 //! |---|---|
 //! | `[frames][263]`, `[frames][251]` | features of HumanML3D and KIT-ML, see [`crate::features`] |
-//! | `[frames][22][3]`, `[frames][21][3]` | joint positions of HumanML3D and KIT-ML |
+//! | `[frames][22][3]`, `[frames][21][3]` | joint positions of HumanML3D and KIT-ML; of 24, 52 or 55 joints, SMPL's, the first 22 |
 //! | either with motions first, or motions first and frames last | many of them |
 //! | `[frames]` and 322, 272, 201 or 135 | rotations of Motion-X, MotionStreamer, HY-Motion and their kin |
 //! | `motion` with `lengths` or `text` | MDM's `results.npy` |
 //! | `thetas` and `root_translation` | MDM's `smpl_params.npy` |
 //! | SMPL's parameters under the keys of GVHMR, WHAM, AIST++, EDGE, TRAM, Kimodo or SMPL-X | one person |
-//! | dictionaries or lists of these | several people |
+//! | frames with `tid` and `smpl` | tracks of PHALP and 4D-Humans, one motion a track |
+//! | dictionaries or lists of these, or of arrays | several people |
 //! | `poses`, or `root_orient` and `pose_body` | [`crate::amass`] |
 //! | `physique_motion` | [`crate::native`] |
 
@@ -19,7 +20,10 @@ mod dictionary;
 mod joints;
 mod mdm;
 mod parameters;
+mod phalp;
+mod points;
 mod rows;
+mod statistics;
 
 use std::path::Path;
 
@@ -30,6 +34,8 @@ use crate::features::JointFile;
 use crate::npz::{Array, ArrayLimits};
 use crate::read::{Part, open_archive};
 use crate::{Error, ReadOptions, SourceMotion, amass, native};
+
+pub use statistics::is_statistics_file;
 
 /// What the readers of this module share: the file's name for errors, and the options.
 #[derive(Clone, Copy)]
@@ -55,16 +61,16 @@ impl Context<'_> {
         }
     }
 
-    fn check_frames(&self, frames: usize) -> Result<(), Error> {
-        if frames > self.options.limits.frames {
-            return Err(Error::Limit {
-                path: self.path.into(),
-                what: "the number of frames",
-                found: frames as u64,
-                limit: self.options.limits.frames as u64,
-            });
+    fn inside(&self, place: impl Into<String>, problem: Error) -> Error {
+        Error::Inside {
+            path: self.path.into(),
+            place: place.into(),
+            problem: Box::new(problem),
         }
-        Ok(())
+    }
+
+    fn check_frames(&self, frames: usize) -> Result<(), Error> {
+        self.options.limits.check_frames(self.path, frames)
     }
 }
 
@@ -132,6 +138,9 @@ pub(crate) fn joint_file(
 
 /// Motions of an array without a dictionary around it.
 fn one_array(context: &Context<'_>, array: &Array) -> Result<Vec<Part>, Error> {
+    if let Some(looks_like) = statistics::describe(array, context.path) {
+        return Err(context.unknown(looks_like));
+    }
     if rows::holds(array) {
         rows::read(context, array)
     } else {

@@ -16,8 +16,8 @@ pub enum Error {
         /// What the system said.
         problem: std::io::Error,
     },
-    /// A frame rate that is not a positive number.
-    #[error("The frame rate must be a positive number of frames a second, found {found}.")]
+    /// A frame rate that no motion has.
+    #[error("The frame rate must be from 0.001 to 1,000,000 frames a second, found {found}.")]
     FrameRate {
         /// The value found.
         found: f64,
@@ -71,7 +71,7 @@ pub enum Error {
         translations: usize,
     },
     /// The content of a file is not what its format demands.
-    #[error("{path}, {place}: expected {expected}, found {found}.")]
+    #[error("{path}, {place}: expected {expected}, found {}.", without_stop(found))]
     Format {
         /// The file.
         path: PathBuf,
@@ -81,6 +81,16 @@ pub enum Error {
         expected: String,
         /// What the file says.
         found: String,
+    },
+    /// A part of a file that is none.
+    #[error("{path}, {place}: {problem}")]
+    Inside {
+        /// The file.
+        path: PathBuf,
+        /// Key, motion or line.
+        place: String,
+        /// What is wrong there.
+        problem: Box<Error>,
     },
     /// A file that asks for more than [`crate::Limits`] allow.
     #[error(
@@ -237,4 +247,9 @@ impl From<FileError> for Error {
             FileError::Io { path, problem } => Self::Io { path, problem },
         }
     }
+}
+
+/// A sentence of others without its full stop.
+fn without_stop(found: &str) -> &str {
+    found.strip_suffix('.').unwrap_or(found)
 }

@@ -228,15 +228,7 @@ impl<'a> Fields<'a> {
     }
 
     pub(crate) fn check_frames(&self, frames: usize) -> Result<(), Error> {
-        if frames > self.options.limits.frames {
-            return Err(Error::Limit {
-                path: self.path.into(),
-                what: "the number of frames",
-                found: frames as u64,
-                limit: self.options.limits.frames as u64,
-            });
-        }
-        Ok(())
+        self.options.limits.check_frames(self.path, frames)
     }
 
     /// The error that a value is not what its format demands.
@@ -251,6 +243,15 @@ impl<'a> Fields<'a> {
             place: place.into(),
             expected: expected.into(),
             found: found.into(),
+        }
+    }
+
+    /// The error that a part of the file is none.
+    pub(crate) fn inside(&self, place: &str, problem: Error) -> Error {
+        Error::Inside {
+            path: self.path.into(),
+            place: place.into(),
+            problem: Box::new(problem),
         }
     }
 

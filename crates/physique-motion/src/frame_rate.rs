@@ -2,17 +2,22 @@
 
 use crate::Error;
 
-/// Frames a second: finite and positive.
+/// Frames a second: a number from [`FrameRate::SLOWEST`] to [`FrameRate::FASTEST`].
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct FrameRate(f64);
 
 impl FrameRate {
-    /// Frames `per_second`, which must be finite and positive.
+    /// A frame in a quarter of an hour.
+    pub const SLOWEST: f64 = 1e-3;
+    /// Faster than any camera follows a person; frames of a second can be counted.
+    pub const FASTEST: f64 = 1e6;
+
+    /// Frames `per_second`.
     ///
     /// # Errors
-    /// [`Error::FrameRate`] with the value found.
+    /// [`Error::FrameRate`] with the value found, for numbers out of range.
     pub fn new(per_second: f64) -> Result<Self, Error> {
-        if per_second.is_finite() && per_second > 0.0 {
+        if (Self::SLOWEST..=Self::FASTEST).contains(&per_second) {
             Ok(Self(per_second))
         } else {
             Err(Error::FrameRate { found: per_second })
@@ -47,7 +52,21 @@ pub(crate) fn customary_rate(seconds: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::customary_rate;
+    use super::{FrameRate, customary_rate};
+
+    #[test]
+    fn rates_that_no_motion_has_are_refused() {
+        for wrong in [0.0, -30.0, 1e-300, 1e300, f64::INFINITY, f64::NAN] {
+            let message = FrameRate::new(wrong).map_err(|error| error.to_string());
+            assert!(
+                message
+                    .as_ref()
+                    .is_err_and(|text| text.contains("1,000,000")),
+                "{message:?}"
+            );
+        }
+        assert!(FrameRate::new(12.5).is_ok());
+    }
 
     #[test]
     fn few_digits_of_a_frame_time_name_the_customary_rate() {

@@ -17,7 +17,7 @@ use physique_body::Joint;
 
 use crate::{
     Error, Motion,
-    features::{JointPositions, RotationLayer},
+    features::{FeatureSkeleton, JointPositions, RotationLayer},
     mapping::{BodyRest, FitError, FitErrorGatherer},
 };
 
@@ -28,7 +28,7 @@ mod source_bones;
 mod twist;
 
 use limb::LIMBS;
-use pose::SolvedPose;
+use pose::{CHEST_BONES, PELVIS_BONES, SolvedPose};
 use source_bones::SourceBones;
 
 /// What to take for granted about the positions.
@@ -80,6 +80,33 @@ pub fn are_joints_of(positions: &JointPositions, body: &BodyRest) -> bool {
     SourceBones::at_rest(&positions, &directions).is_ok_and(|bones| {
         Joint::ALL.into_iter().all(|joint| {
             (bones.offset(joint).length() - body.offset(joint).length()).abs() < METRES
+        })
+    })
+}
+
+/// Whether the three bones of pelvis and of chest stand to each other as this body's do, whatever
+/// their lengths: features bring all people to one skeleton's lengths, but leave directions as
+/// they were. [`IkOptions::for_joints_of`] then gives the rotations of this very body.
+///
+/// KIT's joints lack the collars: nothing is known of them.
+pub fn are_directions_of(positions: &JointPositions, body: &BodyRest) -> bool {
+    /// A tenth of a degree: no two persons' six angles agree so well.
+    const RADIANS: f32 = 2e-3;
+    if positions.skeleton() != FeatureSkeleton::HumanMl3d {
+        return false;
+    }
+    let trios = [(Joint::Pelvis, PELVIS_BONES), (Joint::Spine3, CHEST_BONES)];
+    trios.into_iter().all(|(joint, ends)| {
+        [[0, 1], [1, 2], [2, 0]].into_iter().all(|pair| {
+            let [a, b] = pair.map(|bone| ends[bone]);
+            let between = |frame: &[Vec3]| {
+                let bone = |end: Joint| frame[end.index()] - frame[joint.index()];
+                bone(a).angle_between(bone(b))
+            };
+            let frames = positions.frame_count() as f32;
+            let mean = positions.frames().map(between).sum::<f32>() / frames;
+            // Not a number is not near, either.
+            (mean - body.offset(a).angle_between(body.offset(b))).abs() < RADIANS
         })
     })
 }

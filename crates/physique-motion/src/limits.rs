@@ -34,6 +34,16 @@ impl Default for Limits {
 }
 
 impl Limits {
+    /// Refuses a motion of too many frames.
+    pub(crate) fn check_frames(&self, path: &Path, frames: usize) -> Result<(), Error> {
+        check(
+            path,
+            "the number of frames",
+            frames as u64,
+            self.frames as u64,
+        )
+    }
+
     /// Refuses a clip whose rotations alone take more memory than the limit.
     pub(crate) fn check_rotations(
         &self,

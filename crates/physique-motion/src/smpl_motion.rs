@@ -74,9 +74,7 @@ impl SmplMotion {
             root_translation,
             rotations,
         );
-        let motion = motion.map_err(|error| {
-            fields.format_at("the rotations", "finite numbers", &error.to_string())
-        })?;
+        let motion = motion.map_err(|problem| fields.inside("the motion", problem))?;
         Ok(Recording {
             motion,
             name: stem(fields.path),

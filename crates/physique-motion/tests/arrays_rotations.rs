@@ -5,11 +5,12 @@
 use std::path::PathBuf;
 
 use glam::{DMat3, DQuat, DVec3, Quat, Vec3};
+use physique_body::Joint;
 use physique_files::read_file;
-use physique_motion::npz::{Archive, ArrayLimits};
+use physique_motion::npz::{Archive, ArchiveWriter, ArrayLimits};
 use physique_motion::{
     Error, FrameRate, NamedMotion, ReadOptions, Recording, ShapeSpace, SourceMotion, UpAxis,
-    read_motion, read_motions,
+    parse_motions, read_motion, read_motions,
 };
 
 fn fixture(name: &str) -> PathBuf {
@@ -71,6 +72,7 @@ fn every_program_tells_the_same_motion() {
         ("edge.pkl", "EDGE results", 30.0, ShapeSpace::Smpl),
         ("tram.npy", "TRAM results", 30.0, ShapeSpace::Smpl),
         ("parameters.npz", "SMPL parameters", 25.0, ShapeSpace::Smpl),
+        ("phalp.pkl#7", "PHALP tracks", 30.0, ShapeSpace::Smpl),
         ("kimodo.npz", "Kimodo", 30.0, ShapeSpace::SmplX),
         ("motion_x.npy", "Motion-X", 30.0, ShapeSpace::SmplX),
         (
@@ -136,6 +138,7 @@ fn what_was_guessed_is_noted() {
         ("hy_motion.npy", "before the rotations"),
         ("hy_motion.npy", "pelvis's place"),
         ("motion_x.npy", "hands and jaw were left out"),
+        ("phalp.pkl#7", "A camera sees the path"),
     ] {
         assert!(notes(name).contains(word), "{name}: {}", notes(name));
     }
@@ -165,6 +168,27 @@ fn several_people_are_several_motions() {
         matches!(error, Error::ManyMotions { found: 2, .. }),
         "{error}"
     );
+    let motions = read_motions(fixture("phalp.pkl"), &ReadOptions::default()).unwrap();
+    let names: Vec<_> = motions.iter().map(|motion| motion.name.as_str()).collect();
+    assert_eq!(names, ["phalp.pkl#7", "phalp.pkl#9"]);
+    // Seen in frames 1 and 3: what lies between is half of the way.
+    let late = body(motions.into_iter().nth(1).unwrap().motion);
+    let (rotations, places) = truth();
+    let (turns, path) = (late.motion.rotations(), late.motion.root_translation());
+    assert_eq!(path.len(), 3);
+    let knee = Joint::LeftKnee.index();
+    let half = rotations[22 + knee].slerp(rotations[3 * 22 + knee], 0.5);
+    assert!(turns[22 + knee].angle_between(half) < 2e-3);
+    let middle = path[1] + late.rest_pelvis;
+    assert!(
+        middle.distance(places[1].midpoint(places[3])) < 1e-5,
+        "{middle}"
+    );
+    assert!(
+        late.notes
+            .iter()
+            .any(|note| note.contains("1 frames in which"))
+    );
     let text = read_motions(fixture("mdm_smpl_params.npy"), &ReadOptions::default()).unwrap();
     assert_eq!(text[0].text.as_deref(), Some("a person turns"));
 }
@@ -182,5 +206,19 @@ fn what_is_no_human_motion_is_named() {
             .unwrap_err()
             .to_string();
         assert!(error.contains(name) && error.contains(word), "{error}");
+    }
+    for (joints, whose) in [(77, "SOMA"), (34, "Unitree G1")] {
+        let mut archive = ArchiveWriter::new();
+        let turns = vec![0.0; 2 * joints * 9];
+        archive
+            .f32("local_rot_mats", &[2, joints, 3, 3], &turns)
+            .unwrap();
+        archive.f32("root_positions", &[2, 3], &[0.0; 6]).unwrap();
+        let error = parse_motions(archive.finish().unwrap(), "a.npz", &ReadOptions::default());
+        let error = error.unwrap_err().to_string();
+        assert!(
+            error.contains(whose) && error.contains("SMPL-X model"),
+            "{error}"
+        );
     }
 }

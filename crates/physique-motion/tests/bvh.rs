@@ -223,11 +223,8 @@ fn mistakes_are_named_with_their_place() {
             SMALL.replace("Frames: 2", "Frames: -2"),
             vec!["number of frames", "-2"],
         ),
-        (SMALL.replace("0.0333333", "0"), vec!["positive frame time"]),
-        (
-            SMALL.replace("0.0333333", "-1"),
-            vec!["positive frame time"],
-        ),
+        (SMALL.replace("0.0333333", "0"), vec!["frame time from"]),
+        (SMALL.replace("0.0333333", "-1"), vec!["frame time from"]),
         (
             SMALL.replace("Zrotation", "Wrotation"),
             vec!["line 5", "Wrotation"],

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use physique_body::{Body, Joint};
 use physique_motion::inverse_kinematics::{
-    IkOptions, IkSolution, are_joints_of, solve, solve_by_paper_layer,
+    IkOptions, IkSolution, are_directions_of, are_joints_of, solve, solve_by_paper_layer,
 };
 use physique_motion::mapping::{
     BodyRest, FitError, Mapped, MappingOptions, MappingReport, map_to_body,
@@ -214,20 +214,20 @@ pub fn load_positions(
 ) -> Result<Loaded, Error> {
     let rest = BodyRest::from(body);
     let mut notes = clip.notes.clone();
-    let given = &options.inverse_kinematics;
-    let own = given.rest_directions.is_none() && are_joints_of(&clip.positions, &rest);
-    let own_options = IkOptions {
-        twist_memory: given.twist_memory,
-        soles_on_ground: false,
-        ..IkOptions::for_joints_of(&rest)
-    };
-    let ik = if own { &own_options } else { given };
-    if own {
-        notes.push("The bones are this body's own: it stands where the positions say.".into());
+    let mut ik = options.inverse_kinematics.clone();
+    if ik.rest_directions.is_none() {
+        let own = IkOptions::for_joints_of(&rest).rest_directions;
+        if are_joints_of(&clip.positions, &rest) {
+            (ik.rest_directions, ik.soles_on_ground) = (own, false);
+            notes.push("The bones are this body's own: it stands where the positions say.".into());
+        } else if are_directions_of(&clip.positions, &rest) {
+            ik.rest_directions = own;
+            notes.push("The bones lie at rest as this body's own do.".into());
+        }
     }
     let (method, solution) = match options.rotations {
         RotationsFrom::InverseKinematics => {
-            let solution = solve(&clip.positions, &rest, ik)?;
+            let solution = solve(&clip.positions, &rest, &ik)?;
             ("joint positions, by inverse kinematics", solution)
         }
         RotationsFrom::PaperLayer => {

@@ -87,8 +87,9 @@ fn frame_rate(fields: &mut Fields<'_>) -> Result<FrameRate, Error> {
     for key in ["mocap_framerate", "mocap_frame_rate"] {
         if fields.contains(key) {
             let value = fields.number(key)?;
-            return FrameRate::new(value)
-                .map_err(|_| fields.format(key, "a positive number", &value.to_string()));
+            return FrameRate::new(value).map_err(|_| {
+                fields.format(key, "a positive number below 1,000,000", &value.to_string())
+            });
         }
     }
     Err(fields.format_at(

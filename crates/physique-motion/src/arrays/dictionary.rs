@@ -2,8 +2,9 @@
 
 use physique_files::Data;
 
-use super::{Context, joints, mdm, parameters, rows};
+use super::{Context, joints, mdm, parameters, phalp, rows};
 use crate::fields::Fields;
+use crate::npz::Array;
 use crate::read::Part;
 use crate::{Error, SourceMotion, amass, native};
 
@@ -14,6 +15,7 @@ const DEEPEST: usize = 2;
 pub(super) fn read(context: &Context<'_>, data: &Data) -> Result<Vec<Part>, Error> {
     match one_person(context, data, "") {
         Some(parts) => parts,
+        None if phalp::holds(data) => phalp::read(context, data),
         None => people(context, data, "", 0),
     }
 }
@@ -49,9 +51,7 @@ fn one_person(context: &Context<'_>, data: &Data, place: &str) -> Option<Result<
 /// The only array of a dictionary that has the shape of a motion.
 fn single_array(context: &Context<'_>, data: &Data) -> Option<Result<Vec<Part>, Error>> {
     let arrays = data.entries().iter().filter_map(|(_, value)| match value {
-        Data::Array(array) if joints::Axes::of(array.shape()).is_some() || rows::holds(array) => {
-            Some(array)
-        }
+        Data::Array(array) if is_motion(array) => Some(array),
         _ => None,
     });
     let arrays: Vec<_> = arrays.collect();
@@ -61,7 +61,12 @@ fn single_array(context: &Context<'_>, data: &Data) -> Option<Result<Vec<Part>, 
     }
 }
 
-/// The motions of a dictionary or list of dictionaries, one a person.
+/// Whether an array has the shape of features, positions or rows of rotations.
+fn is_motion(array: &Array) -> bool {
+    joints::Axes::of(array.shape()).is_some() || rows::holds(array)
+}
+
+/// The motions of a dictionary or list of dictionaries or arrays, one a person.
 fn people(
     context: &Context<'_>,
     data: &Data,
@@ -90,6 +95,7 @@ fn people(
         };
         let parts = match person {
             Data::Dict(_) => one_person(context, person, &path),
+            Data::Array(array) if is_motion(array) => Some(super::one_array(context, array)),
             _ => None,
         };
         let parts = match (parts, person) {
@@ -140,13 +146,11 @@ fn describe(data: &Data) -> String {
                 was retargeted from"
             .into();
     }
+    if has(&["mean"]) && has(&["std"]) {
+        return "means and deviations of features, which are no motion".into();
+    }
     if has(&["v_template", "shapedirs"]) {
         return "a body model, which goes to --body, not a motion".into();
-    }
-    if inner_has(&["tid", "tracked_ids"]) {
-        return "tracks of PHALP or 4D-Humans, one dictionary a frame of people in camera space; \
-                convert them to one dictionary of `global_orient`, `body_pose` and `transl` a person"
-            .into();
     }
     let entries = data.entries();
     let shown: Vec<_> = entries

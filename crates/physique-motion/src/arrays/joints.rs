@@ -2,10 +2,12 @@
 
 use glam::Vec3;
 
-use super::Context;
+use super::{Context, points};
 use crate::features::{FeatureSkeleton, JointFile, JointPositions, MotionFeatures};
 use crate::npz::Array;
 use crate::read::Part;
+use crate::smpl_motion::{SMPL_JOINTS, SMPLH_JOINTS, SMPLX_JOINTS};
+use crate::world::World;
 use crate::{Error, FrameRate, PositionClip, SourceMotion};
 
 /// What an array of motions holds, by its shape.
@@ -13,37 +15,51 @@ use crate::{Error, FrameRate, PositionClip, SourceMotion};
 pub(super) struct Axes {
     pub(super) skeleton: FeatureSkeleton,
     is_features: bool,
+    /// Numbers of a frame: of positions, more than the skeleton's where hands are behind.
+    width: usize,
     /// Number of motions, where the first axis counts them.
     pub(super) motions: Option<usize>,
     pub(super) frames: usize,
     frames_last: bool,
 }
 
+/// Joints a frame that positions may have: hands, jaw and eyes come behind the body's.
+const fn joint_counts(skeleton: FeatureSkeleton) -> &'static [usize] {
+    match skeleton {
+        FeatureSkeleton::HumanMl3d => &[22, SMPL_JOINTS, SMPLH_JOINTS, SMPLX_JOINTS],
+        FeatureSkeleton::Kit => &[21],
+    }
+}
+
 impl Axes {
     /// Frames come before the numbers of a frame, or, as in PyTorch's convolutions, after them.
     pub(super) fn of(shape: &[usize]) -> Option<Self> {
         FeatureSkeleton::ALL.into_iter().find_map(|skeleton| {
-            let (width, joints) = (skeleton.feature_count(), skeleton.joint_count());
-            let axes = |is_features, motions, frames, frames_last| {
+            let width = skeleton.feature_count();
+            let axes = |is_features, width, motions, frames, frames_last| {
                 Some(Self {
                     skeleton,
                     is_features,
+                    width,
                     motions,
                     frames,
                     frames_last,
                 })
             };
+            let has = |joints| joint_counts(skeleton).contains(&joints);
             match *shape {
-                [frames, w] if w == width => axes(true, None, frames, false),
-                [motions, frames, w] if w == width => axes(true, Some(motions), frames, false),
-                [w, 1, frames] if w == width => axes(true, None, frames, true),
-                [motions, w, 1, frames] if w == width => axes(true, Some(motions), frames, true),
-                [frames, j, 3] if j == joints => axes(false, None, frames, false),
-                [motions, frames, j, 3] if j == joints => axes(false, Some(motions), frames, false),
-                [j, 3, frames] if j == joints => axes(false, None, frames, true),
+                [frames, w] if w == width => axes(true, w, None, frames, false),
+                [motions, frames, w] if w == width => axes(true, w, Some(motions), frames, false),
+                [w, 1, frames] if w == width => axes(true, w, None, frames, true),
+                [motions, w, 1, frames] if w == width => axes(true, w, Some(motions), frames, true),
+                [frames, j, 3] if has(j) => axes(false, 3 * j, None, frames, false),
+                [motions, frames, j, 3] if has(j) => {
+                    axes(false, 3 * j, Some(motions), frames, false)
+                }
+                [j, 3, frames] if has(j) => axes(false, 3 * j, None, frames, true),
                 // Three frames would be rotation matrices.
-                [motions, j, 3, frames] if j == joints && frames != 3 => {
-                    axes(false, Some(motions), frames, true)
+                [motions, j, 3, frames] if has(j) && frames != 3 => {
+                    axes(false, 3 * j, Some(motions), frames, true)
                 }
                 _ => None,
             }
@@ -67,30 +83,26 @@ impl Axes {
         }
     }
 
-    fn not_a_motion(&self, context: &Context<'_>, motion: usize, error: &Error) -> Error {
-        let found = error.to_string();
-        context.format(self.place(motion), "a motion of finite numbers", found)
-    }
-
-    /// Numbers of a frame.
-    const fn width(&self) -> usize {
+    /// Numbers of a frame that are the skeleton's.
+    const fn own_width(&self) -> usize {
         if self.is_features {
-            self.skeleton.feature_count()
+            self.width
         } else {
             3 * self.skeleton.joint_count()
         }
     }
 
-    /// The first `frames` frames of a motion, in the order `[frames][numbers]`.
+    /// The first `frames` frames of a motion, in the order `[frames][numbers]`, without hands.
     fn rows(&self, values: &[f32], motion: usize, frames: usize) -> Vec<f32> {
-        let width = self.width();
+        let (width, own) = (self.width, self.own_width());
         let motion = &values[motion * self.frames * width..][..self.frames * width];
         if !self.frames_last {
-            return motion[..frames * width].to_vec();
+            let rows = motion.chunks_exact(width).take(frames);
+            return rows.flat_map(|row| row[..own].iter().copied()).collect();
         }
         let rows = (0..frames).flat_map(|frame| {
             let columns = motion.iter().skip(frame).step_by(self.frames);
-            columns.copied()
+            columns.take(own).copied()
         });
         rows.collect()
     }
@@ -108,9 +120,54 @@ pub(super) fn read(context: &Context<'_>, array: &Array) -> Result<Vec<Part>, Er
         key: axes.motions.map_or(String::new(), |_| index.to_string()),
         text: None,
         format: axes.format(),
-        motion: clip(context, &axes, &values, index, axes.frames),
+        motion: clip(context, &axes, &values, index, axes.frames)
+            .and_then(|clip| person(context, &axes, index, clip))
+            .map(SourceMotion::Positions),
     });
     Ok(motions.collect())
+}
+
+/// A clip of which only the shape is known: a person's, made to stand along Y.
+fn person(
+    context: &Context<'_>,
+    axes: &Axes,
+    motion: usize,
+    mut clip: PositionClip,
+) -> Result<PositionClip, Error> {
+    if axes.is_features {
+        return Ok(clip);
+    }
+    if !points::are_a_persons(&clip.positions) {
+        let full_turn = std::f32::consts::TAU + 1e-3;
+        let mut vectors = clip.positions.positions().iter();
+        let found = if vectors.all(|vector| vector.length() < full_turn) {
+            "vectors that look like rotations, which need a path: a dictionary of `poses` and `trans`"
+        } else {
+            "points of no person's proportions"
+        };
+        let expected = "joint positions, whose bones are a person's";
+        return Err(context.format(axes.place(motion), expected, found));
+    }
+    let world = match context.options.up_axis {
+        Some(up) => World::from(up),
+        None => points::world(&clip.positions),
+    };
+    if world != World::YUp {
+        let positions = clip.positions.positions().iter();
+        let turned = positions.map(|&at| world.to_ours(at.as_dvec3()).as_vec3());
+        clip.positions = JointPositions::new(
+            clip.positions.frame_rate(),
+            clip.positions.skeleton(),
+            turned.collect(),
+        )?;
+        if context.options.up_axis.is_none() {
+            clip.notes.push(format!(
+                "The person stands upright with {}, which was taken.",
+                world.words()
+            ));
+        }
+    }
+    Ok(clip)
 }
 
 /// All numbers of an array, which must hold some: any number of motions without frames would fit
@@ -144,11 +201,11 @@ pub(super) fn clip(
     values: &[f32],
     motion: usize,
     frames: usize,
-) -> Result<SourceMotion, Error> {
+) -> Result<PositionClip, Error> {
     let mut notes = Vec::new();
     let positions = file(context, axes, values, motion, frames, &mut notes)?.into_positions();
-    let positions = positions.map_err(|error| axes.not_a_motion(context, motion, &error))?;
-    Ok(SourceMotion::Positions(PositionClip { positions, notes }))
+    let positions = positions.map_err(|problem| context.inside(axes.place(motion), problem))?;
+    Ok(PositionClip { positions, notes })
 }
 
 fn file(
@@ -171,13 +228,19 @@ fn file(
         ));
     }
     let rows = axes.rows(values, motion, frames);
-    let not_a_motion = |error: Error| axes.not_a_motion(context, motion, &error);
+    let not_a_motion = |problem: Error| context.inside(axes.place(motion), problem);
     if axes.is_features {
         let format = axes.format();
         notes.push(format!("Joint positions were recovered from {format}."));
         let features = MotionFeatures::new(rate, axes.skeleton, rows).map_err(not_a_motion)?;
         in_own_units(context, features, &axes.place(motion), notes).map(JointFile::Features)
     } else {
+        let (joints, found) = (axes.skeleton.joint_count(), axes.width / 3);
+        if found > joints {
+            notes.push(format!(
+                "Of {found} joints a frame, the body's {joints} were taken, which come first."
+            ));
+        }
         let positions = rows.as_chunks().0.iter().copied().map(Vec3::from_array);
         let positions = JointPositions::new(rate, axes.skeleton, positions.collect());
         positions.map(JointFile::Positions).map_err(not_a_motion)
@@ -247,13 +310,18 @@ mod tests {
                 ("KIT-ML joint positions", Some(6), 75, true),
             ),
             (&[22, 3, 60], ("HumanML3D joint positions", None, 60, true)),
+            (&[60, 24, 3], ("HumanML3D joint positions", None, 60, false)),
+            (
+                &[9, 55, 3, 60],
+                ("HumanML3D joint positions", Some(9), 60, true),
+            ),
         ] {
             assert_eq!(seen(shape), Some(expected), "{shape:?}");
         }
         for shape in [
             &[263][..],
             &[60, 66],
-            &[60, 24, 3],
+            &[60, 23, 3],
             &[60, 22, 3, 3],
             &[2, 3, 60, 22, 3],
         ] {

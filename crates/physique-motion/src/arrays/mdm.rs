@@ -45,7 +45,7 @@ pub(super) fn read(context: &Context<'_>, data: &Data) -> Result<Vec<Part>, Erro
         key: axes.motions.map_or(String::new(), |_| index.to_string()),
         text,
         format: "MDM results",
-        motion: joints::clip(context, &axes, &values, index, frames),
+        motion: joints::clip(context, &axes, &values, index, frames).map(SourceMotion::Positions),
     });
     Ok(parts.collect())
 }
@@ -119,9 +119,7 @@ pub(super) fn read_rotations(fields: &mut Fields<'_>) -> Result<Vec<Part>, Error
                     frame,
                     joint: joint.name(),
                 });
-            let turn = turn.map_err(|error| {
-                fields.format("thetas", "rotations of six numbers", &error.to_string())
-            })?;
+            let turn = turn.map_err(|problem| fields.inside("`thetas`", problem))?;
             rotations.push(DQuat::from_mat3(&turn.as_dmat3()).normalize());
         }
     }

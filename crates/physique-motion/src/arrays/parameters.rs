@@ -201,6 +201,7 @@ impl Format {
         let (root, body) = match self.pose {
             Pose::Parts(root, body) => (root, body),
             Pose::Whole(key) => {
+                self.refuse_other_skeletons(fields, key)?;
                 let known = [Joint::COUNT, SMPL_JOINTS, SMPLH_JOINTS, SMPLX_JOINTS];
                 return Rotations::read(fields, key, &known);
             }
@@ -222,6 +223,21 @@ impl Format {
             .flat_map(|(root, body)| std::iter::once(root).chain(body).copied())
             .collect();
         Ok(Rotations { values, joints })
+    }
+
+    /// Kimodo generates motions of other skeletons under the same keys.
+    fn refuse_other_skeletons(&self, fields: &mut Fields<'_>, key: &str) -> Result<(), Error> {
+        let whose = match *fields.array(key)?.shape() {
+            [_, 30 | 77, 3, 3] => "NVIDIA's SOMA body",
+            [_, 34, 3, 3] => "the robot Unitree G1",
+            _ => return Ok(()),
+        };
+        if self.name != "Kimodo" {
+            return Ok(());
+        }
+        let expected = "22 joints of SMPL-X: generate with Kimodo's SMPL-X model, or export BVH";
+        let found = format!("the joints of {whose}");
+        Err(fields.format(key, expected, &found))
     }
 
     fn scale(&self, fields: &mut Fields<'_>) -> Result<f64, Error> {
@@ -270,8 +286,9 @@ pub(super) fn frame_rate(
     for key in keys {
         if fields.contains(key) {
             let value = fields.number(key)?;
-            return FrameRate::new(value)
-                .map_err(|_| fields.format(key, "a positive number", &value.to_string()));
+            return FrameRate::new(value).map_err(|_| {
+                fields.format(key, "a positive number below 1,000,000", &value.to_string())
+            });
         }
     }
     let Some((usual, whose)) = usual else {

@@ -43,9 +43,14 @@ struct Body {
 
 /// Whether an array has the shape of one of the layouts.
 pub(super) fn holds(array: &Array) -> bool {
+    matches!(*array.shape(), [_, width] if is_width(width))
+}
+
+/// Whether rows of one of the layouts are so long.
+pub(super) const fn is_width(numbers: usize) -> bool {
     matches!(
-        array.shape(),
-        [_, MOTION_X | MOTION_STREAMER | HY_MOTION | SIX_NUMBERS]
+        numbers,
+        MOTION_X | MOTION_STREAMER | HY_MOTION | SIX_NUMBERS
     )
 }
 

@@ -47,8 +47,11 @@ pub(super) fn parse(
     let frame_rate = match frame_rate {
         Some(frame_rate) => frame_rate,
         None => FrameRate::new(customary_rate(seconds)).map_err(|_| {
-            let found = seconds.to_string();
-            text.error("a positive frame time", Some(found.as_bytes()))
+            let found = format!("{seconds:e}");
+            text.error(
+                "a frame time from a millionth to 1,000 seconds",
+                Some(found.as_bytes()),
+            )
         })?,
     };
     let columns = joints.iter().map(|joint| joint.channels.len()).sum();

@@ -70,7 +70,7 @@ impl FootTracks {
         let track = &self.sides[side];
         let around = ((self.frame_rate * HALF_WINDOW_SECONDS).round() as usize).max(1);
         let first = frame.saturating_sub(around);
-        let last = (frame + around).min(self.frame_count() - 1);
+        let last = frame.saturating_add(around).min(self.frame_count() - 1);
         let way = track.tip(first).distance(track.tip(last));
         last > first && way * self.frame_rate < METRES_A_SECOND * (last - first) as f32
     }

@@ -1,0 +1,137 @@
+//! What points without a name show: whether they are a person's joints, and which way is up.
+//!
+//! A shape of `[frames][22][3]` fits rotation vectors as well as positions, in any world. Bones tell
+//! the first: people differ little in how long one bone is against another. How a person stands
+//! tells the second.
+
+use glam::Vec3;
+use physique_body::Joint;
+
+use crate::clip::spread;
+use crate::features::{FeatureSkeleton, JointPositions};
+use crate::world::World;
+
+/// So many frames are looked at.
+const LOOKED_AT: usize = 64;
+
+/// Whether the bones have a person's proportions, however rough: generated ones stretch.
+pub(super) fn are_a_persons(positions: &JointPositions) -> bool {
+    /// Half of a person's bones are within this factor of the mean person's.
+    const FACTOR: f32 = 1.5;
+    misfit(positions) < FACTOR.ln()
+}
+
+/// How far the middle bone is from the mean person's, once the size is taken off: |ln(length / usual)|.
+fn misfit(positions: &JointPositions) -> f32 {
+    let skeleton = positions.skeleton();
+    let (parents, offsets) = (skeleton.parents(), skeleton.offsets());
+    let mut misfits = Vec::new();
+    for frame in spread(positions.frame_count(), LOOKED_AT) {
+        let at = positions.frame(frame);
+        let bones = parents.iter().zip(&offsets).enumerate();
+        let ratios = bones.filter_map(|(joint, (parent, usual))| {
+            let length = at[joint].distance(at[(*parent)?]);
+            // Bones of no length are the solver's to refuse, which names them.
+            (length > 0.0).then(|| (length / usual.length()).ln())
+        });
+        let mut ratios: Vec<f32> = ratios.collect();
+        let size = median(&mut ratios);
+        misfits.extend(ratios.iter().map(|ratio| (ratio - size).abs()));
+    }
+    median(&mut misfits)
+}
+
+/// The middle of some numbers; 0 for none.
+fn median(values: &mut [f32]) -> f32 {
+    let middle = values.len() / 2;
+    if values.is_empty() {
+        return 0.0;
+    }
+    *values.select_nth_unstable_by(middle, f32::total_cmp).1
+}
+
+/// Where an axis's ground would be.
+struct Ground {
+    /// From the lowest joint of the lowest frames to that of the highest, in a person's heights.
+    range: f32,
+    /// Whether the lowest joint is at height 0 in half of the frames, and never below.
+    is_at_zero: bool,
+}
+
+impl Ground {
+    /// `lowest` joint of each frame, and the size of the person.
+    fn of(mut lowest: Vec<f32>, size: f32) -> Self {
+        lowest.sort_by(f32::total_cmp);
+        let at = |share: usize| lowest[(lowest.len() - 1) * share / 100] / size;
+        Self {
+            range: at(95) - at(5),
+            is_at_zero: at(5) > -0.03 && at(50) < 0.1,
+        }
+    }
+
+    /// Whether this looks more like the ground than another.
+    fn is_likelier_than(&self, other: &Self) -> bool {
+        match (self.is_at_zero, other.is_at_zero) {
+            (true, false) => true,
+            (false, true) => false,
+            _ => self.range < other.range,
+        }
+    }
+}
+
+/// The world in which the person stands: Y up, unless they stand along another axis and its ground
+/// is likelier, since crawling and lying people are upright along the ground.
+pub(super) fn world(positions: &JointPositions) -> World {
+    /// Mean height from ankles to head along the axis, of their distance.
+    const UPRIGHT: f32 = 0.6;
+    let [ankles, head] = match positions.skeleton() {
+        FeatureSkeleton::HumanMl3d => [
+            [Joint::LeftAnkle.index(), Joint::RightAnkle.index()],
+            [Joint::Head.index(), Joint::Neck.index()],
+        ],
+        // KIT's joints are mirrored, which does not matter here: its spine ends at 4.
+        FeatureSkeleton::Kit => [[18, 13], [4, 4]],
+    };
+    let (mut upright, mut size, mut frames) = (Vec3::ZERO, 0.0, 0.0_f32);
+    let mut lowest = [const { Vec::new() }; 2];
+    for frame in spread(positions.frame_count(), LOOKED_AT) {
+        let at = positions.frame(frame);
+        let middle = |[a, b]: [usize; 2]| at[a].midpoint(at[b]);
+        let tall = middle(head) - middle(ankles);
+        upright += tall.normalize_or_zero();
+        size += tall.length();
+        frames += 1.0;
+        let low = at.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+        lowest[0].push(low.y);
+        lowest[1].push(low.z);
+    }
+    let (upright, size) = (upright / frames, size / frames);
+    let [along_y, along_z] = lowest.map(|lowest| Ground::of(lowest, size));
+    if upright.z > UPRIGHT && along_z.is_likelier_than(&along_y) {
+        World::ZUp
+    } else if upright.y < -UPRIGHT && !along_y.is_at_zero {
+        World::Camera
+    } else {
+        World::YUp
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Ground, median};
+
+    #[test]
+    fn the_middle_of_numbers() {
+        assert_eq!(median(&mut [3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median(&mut []), 0.0);
+    }
+
+    #[test]
+    fn ground_is_where_feet_return_to() {
+        let flat = Ground::of(vec![0.02; 10], 1.5);
+        let far = Ground::of(vec![0.9; 10], 1.5);
+        let sloping = Ground::of((0..10).map(|step| step as f32).collect(), 1.5);
+        assert!(flat.is_likelier_than(&far) && !far.is_likelier_than(&flat));
+        assert!(far.is_likelier_than(&sloping) && !sloping.is_likelier_than(&far));
+    }
+}
