@@ -113,6 +113,43 @@ fn joints_of_hands_are_left_out() {
 }
 
 #[test]
+fn other_units_than_metres_are_brought_to_metres() {
+    let walk = joints(&support::walk(10));
+    for (units, name) in [
+        (100.0, "centimetres"),
+        (1000.0, "millimetres"),
+        (39.37, "inches"),
+    ] {
+        let scaled: Vec<Vec3> = walk.iter().map(|&p| p * units).collect();
+        let clip = read(&scaled).unwrap();
+        assert!(clip.notes[1].contains(name), "{:?}", clip.notes);
+        let pairs = clip.positions.positions().iter().zip(&walk);
+        let largest = pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+        assert!(largest < 1e-3, "{name}: {largest} m");
+    }
+    // A child is no adult in another unit.
+    let small: Vec<Vec3> = walk.iter().map(|&p| p * 0.6).collect();
+    assert_eq!(read(&small).unwrap().positions.positions(), small);
+}
+
+#[test]
+fn rows_of_joints_and_rates_beside_arrays_are_read() {
+    let walk: Vec<f32> = joints(&support::walk(8))
+        .iter()
+        .flat_map(Vec3::to_array)
+        .collect();
+    let flat = npy_f32(&[8, 66], &walk).unwrap();
+    let clip = read_with(flat, &ReadOptions::default()).unwrap();
+    assert_eq!(clip.positions.frame_count(), 8);
+    let mut archive = ArchiveWriter::new();
+    archive.f32("joints", &[8, 22, 3], &walk).unwrap();
+    archive.integer("fps", 30).unwrap();
+    let clip = read_with(archive.finish().unwrap(), &ReadOptions::default()).unwrap();
+    assert_eq!(clip.positions.frame_rate().per_second(), 30.0);
+    assert!(clip.notes.is_empty(), "{:?}", clip.notes);
+}
+
+#[test]
 fn rotation_vectors_are_not_taken_for_positions() {
     for clip in embedded::clips() {
         let motion = clip.load().unwrap().motion;

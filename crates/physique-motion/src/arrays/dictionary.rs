@@ -6,7 +6,7 @@ use super::{Context, joints, mdm, parameters, phalp, rows};
 use crate::fields::Fields;
 use crate::npz::Array;
 use crate::read::Part;
-use crate::{Error, SourceMotion, amass, native};
+use crate::{Error, ReadOptions, SourceMotion, amass, native};
 
 /// People within people are no format of ours.
 const DEEPEST: usize = 2;
@@ -56,9 +56,26 @@ fn single_array(context: &Context<'_>, data: &Data) -> Option<Result<Vec<Part>, 
     });
     let arrays: Vec<_> = arrays.collect();
     match arrays.as_slice() {
-        [array] => Some(super::one_array(context, array)),
+        [array] => Some(at_rate_beside(context, data, array)),
         _ => None,
     }
+}
+
+/// An array's motions, at the frame rate that the dictionary states beside it.
+fn at_rate_beside(context: &Context<'_>, data: &Data, array: &Array) -> Result<Vec<Part>, Error> {
+    let mut fields = Fields::of_tree(data, "", context.path, context.options);
+    let is_stated = parameters::RATE_KEYS.iter().any(|key| fields.contains(key));
+    if !is_stated || context.options.frame_rate.is_some() {
+        return super::one_array(context, array);
+    }
+    let rate = parameters::frame_rate(&mut fields, &parameters::RATE_KEYS, None, &mut Vec::new())?;
+    let options = ReadOptions {
+        frame_rate: Some(rate),
+        ..context.options.clone()
+    };
+    let path = context.path;
+    let options = &options;
+    super::one_array(&Context { path, options }, array)
 }
 
 /// Whether an array has the shape of features, positions or rows of rotations.
@@ -95,7 +112,7 @@ fn people(
         };
         let parts = match person {
             Data::Dict(_) => one_person(context, person, &path),
-            Data::Array(array) if is_motion(array) => Some(super::one_array(context, array)),
+            Data::Array(array) if is_motion(array) => Some(at_rate_beside(context, data, array)),
             _ => None,
         };
         let parts = match (parts, person) {

@@ -52,6 +52,7 @@ impl Axes {
                 [motions, frames, w] if w == width => axes(true, w, Some(motions), frames, false),
                 [w, 1, frames] if w == width => axes(true, w, None, frames, true),
                 [motions, w, 1, frames] if w == width => axes(true, w, Some(motions), frames, true),
+                [frames, w] if w % 3 == 0 && has(w / 3) => axes(false, w, None, frames, false),
                 [frames, j, 3] if has(j) => axes(false, 3 * j, None, frames, false),
                 [motions, frames, j, 3] if has(j) => {
                     axes(false, 3 * j, Some(motions), frames, false)
@@ -148,6 +149,11 @@ fn person(
         let expected = "joint positions, whose bones are a person's";
         return Err(context.format(axes.place(motion), expected, found));
     }
+    if let Some((metres, note)) = points::unit(&clip.positions) {
+        let scaled = clip.positions.positions().iter().map(|&at| at * metres);
+        clip.positions = clip.positions.with_positions(scaled.collect())?;
+        clip.notes.push(note);
+    }
     let world = match context.options.up_axis {
         Some(up) => World::from(up),
         None => points::world(&clip.positions),
@@ -155,11 +161,7 @@ fn person(
     if world != World::YUp {
         let positions = clip.positions.positions().iter();
         let turned = positions.map(|&at| world.to_ours(at.as_dvec3()).as_vec3());
-        clip.positions = JointPositions::new(
-            clip.positions.frame_rate(),
-            clip.positions.skeleton(),
-            turned.collect(),
-        )?;
+        clip.positions = clip.positions.with_positions(turned.collect())?;
         if context.options.up_axis.is_none() {
             clip.notes.push(format!(
                 "The person stands upright with {}, which was taken.",
@@ -310,6 +312,7 @@ mod tests {
                 ("KIT-ML joint positions", Some(6), 75, true),
             ),
             (&[22, 3, 60], ("HumanML3D joint positions", None, 60, true)),
+            (&[60, 66], ("HumanML3D joint positions", None, 60, false)),
             (&[60, 24, 3], ("HumanML3D joint positions", None, 60, false)),
             (
                 &[9, 55, 3, 60],
@@ -320,7 +323,7 @@ mod tests {
         }
         for shape in [
             &[263][..],
-            &[60, 66],
+            &[60, 64],
             &[60, 23, 3],
             &[60, 22, 3, 3],
             &[2, 3, 60, 22, 3],

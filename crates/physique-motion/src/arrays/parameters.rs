@@ -23,6 +23,15 @@ use crate::smpl_motion::{
 use crate::world::World;
 use crate::{Error, FrameRate, Recording, ShapeSpace};
 
+/// Keys under which dictionaries state their frame rate.
+pub(super) const RATE_KEYS: [&str; 5] = [
+    "fps",
+    "mocap_framerate",
+    "mocap_frame_rate",
+    "frame_rate",
+    "framerate",
+];
+
 /// One program's dictionary.
 pub(super) struct Format {
     pub(super) name: &'static str,
@@ -257,16 +266,9 @@ impl Format {
         fields: &mut Fields<'_>,
         notes: &mut Vec<String>,
     ) -> Result<FrameRate, Error> {
-        let keys = [
-            "fps",
-            "mocap_framerate",
-            "mocap_frame_rate",
-            "frame_rate",
-            "framerate",
-        ];
         frame_rate(
             fields,
-            &keys,
+            &RATE_KEYS,
             self.rate.map(|rate| (rate, self.name)),
             notes,
         )

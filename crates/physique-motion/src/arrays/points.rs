@@ -23,10 +23,19 @@ pub(super) fn are_a_persons(positions: &JointPositions) -> bool {
 
 /// How far the middle bone is from the mean person's, once the size is taken off: |ln(length / usual)|.
 fn misfit(positions: &JointPositions) -> f32 {
+    let mut misfits = Vec::new();
+    for mut ratios in ratios(positions) {
+        let size = median(&mut ratios);
+        misfits.extend(ratios.iter().map(|ratio| (ratio - size).abs()));
+    }
+    median(&mut misfits)
+}
+
+/// ln(length / usual) of all bones, for some frames.
+fn ratios(positions: &JointPositions) -> impl Iterator<Item = Vec<f32>> {
     let skeleton = positions.skeleton();
     let (parents, offsets) = (skeleton.parents(), skeleton.offsets());
-    let mut misfits = Vec::new();
-    for frame in spread(positions.frame_count(), LOOKED_AT) {
+    spread(positions.frame_count(), LOOKED_AT).map(move |frame| {
         let at = positions.frame(frame);
         let bones = parents.iter().zip(&offsets).enumerate();
         let ratios = bones.filter_map(|(joint, (parent, usual))| {
@@ -34,11 +43,33 @@ fn misfit(positions: &JointPositions) -> f32 {
             // Bones of no length are the solver's to refuse, which names them.
             (length > 0.0).then(|| (length / usual.length()).ln())
         });
-        let mut ratios: Vec<f32> = ratios.collect();
-        let size = median(&mut ratios);
-        misfits.extend(ratios.iter().map(|ratio| (ratio - size).abs()));
+        ratios.collect()
+    })
+}
+
+/// Metres in the unit of the positions, and a note, where they are a person's in centimetres,
+/// millimetres or inches. KIT's have a unit of their own.
+pub(super) fn unit(positions: &JointPositions) -> Option<(f32, String)> {
+    /// A child and a giant, by the mean person.
+    const HUMAN: f32 = 0.6;
+    const UNITS: [(f32, &str); 3] = [
+        (0.01, "centimetres"),
+        (0.001, "millimetres"),
+        (0.0254, "inches"),
+    ];
+    if positions.skeleton() != FeatureSkeleton::HumanMl3d {
+        return None;
     }
-    median(&mut misfits)
+    let mut sizes: Vec<f32> = ratios(positions).map(|mut all| median(&mut all)).collect();
+    let size = median(&mut sizes);
+    let off = |metres: f32| (size + metres.ln()).abs();
+    let (metres, name) = UNITS
+        .into_iter()
+        .min_by(|a, b| off(a.0).total_cmp(&off(b.0)))?;
+    (size.abs() > HUMAN && off(metres) < HUMAN).then(|| {
+        let note = format!("The bones are a person's in {name}: they were brought to metres.");
+        (metres, note)
+    })
 }
 
 /// The middle of some numbers; 0 for none.

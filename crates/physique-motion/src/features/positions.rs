@@ -56,7 +56,7 @@ impl JointPositions {
     }
 
     /// The same rate and skeleton with other positions of as many joints a frame.
-    pub(super) fn with_positions(&self, positions: Vec<Vec3>) -> Result<Self, Error> {
+    pub(crate) fn with_positions(&self, positions: Vec<Vec3>) -> Result<Self, Error> {
         Self::new(self.frame_rate, self.skeleton, positions)
     }
 
