@@ -1,8 +1,17 @@
 //! A human of CMU's bones.
 
 /// Name, parent, direction, length, axis and degrees of freedom.
+type Bone = (
+    &'static str,
+    &'static str,
+    [f64; 3],
+    f64,
+    [f64; 3],
+    &'static str,
+);
+
 #[rustfmt::skip]
-const BONES: [(&str, &str, [f64; 3], f64, [f64; 3], &str); 26] = [
+const BONES: [Bone; 26] = [
     ("lhipjoint", "root", [0.65, -0.71, 0.25], 2.5, [0.0, 0.0, 0.0], ""),
     ("lfemur", "lhipjoint", [0.34202, -0.939693, 0.0], 7.6, [0.0, 0.0, 20.0], "rx ry rz"),
     ("ltibia", "lfemur", [0.34202, -0.939693, 0.0], 7.3, [0.0, 0.0, 20.0], "rx"),
