@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::body_choice::BodyArguments;
 use crate::convert::arguments::ConvertArguments;
+use crate::data::arguments::DataVerb;
 use crate::inspect::arguments::InspectArguments;
 use crate::proxy::arguments::ProxyVerb;
 use crate::repair::arguments::RepairArguments;
@@ -51,6 +52,9 @@ pub(crate) enum Verb {
     /// Spheres in place of a body: fit them, count which touch, measure them.
     #[command(subcommand)]
     Proxy(ProxyVerb),
+    /// Motions with captions as one file to learn from.
+    #[command(subcommand)]
+    Data(DataVerb),
     /// Print a completion script for a shell.
     Completions {
         /// The shell.

@@ -4,6 +4,7 @@ mod arguments;
 mod batch;
 mod body_choice;
 mod convert;
+mod data;
 mod demo;
 mod exclude;
 mod exit;
@@ -47,6 +48,7 @@ fn main() -> ExitCode {
         Verb::Repair(arguments) => repair::run(arguments),
         Verb::Demo(arguments) => demo::run(arguments),
         Verb::Proxy(verb) => proxy::run(verb),
+        Verb::Data(verb) => data::run(verb),
         Verb::Completions { shell } => {
             let mut command = Arguments::command();
             clap_complete::generate(*shell, &mut command, "physique", &mut std::io::stdout());

@@ -37,7 +37,7 @@ mod statistics;
 mod uniform;
 
 pub use bone_rotations::{BoneRotations, Heading};
-pub use extract::extract;
+pub use extract::{extract, extract_window};
 pub use gradient::{GradientRule, recover_from_positions_gradient};
 pub use kit::{kit_from_smpl, smpl_from_kit, smpl_from_kit_gradient};
 pub use layout::FeatureLayout;
@@ -51,4 +51,4 @@ pub use rotation_layer::RotationLayer;
 pub use rotation6d::Rotation6d;
 pub use skeleton::FeatureSkeleton;
 pub use statistics::{FeatureStatistics, StatisticsGatherer};
-pub use uniform::canonicalise;
+pub use uniform::{canonicalise, canonicalise_window};

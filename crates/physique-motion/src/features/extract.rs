@@ -6,7 +6,7 @@ use super::{
     BoneRotations, Heading, JointPositions, MotionFeatures, Rotation6d,
     contact::contacts,
     quaternion::{matrix, multiply, rotate},
-    uniform::canonicalise,
+    uniform::{canonicalise, canonicalise_window},
 };
 use crate::Error;
 
@@ -18,9 +18,25 @@ use crate::Error;
 /// # Errors
 /// [`Error::NoFrames`] for fewer than two frames; [`Error::NoHeading`] and [`Error::NoBone`].
 pub fn extract(motion: &JointPositions) -> Result<MotionFeatures, Error> {
-    let motion = canonicalise(motion)?;
+    features_of(&canonicalise(motion)?)
+}
+
+/// The features of a window of a motion that [`canonicalise`] brought to its floor, or of the mirror
+/// image of one: as [`extract`], but heights stay.
+///
+/// Rotations of the hips and the spine depend on how the first frame faces, so that rows cut out of
+/// the features of a longer motion disagree with their own positions by some 2 cm; these do not.
+///
+/// # Errors
+/// As [`extract`].
+pub fn extract_window(motion: &JointPositions) -> Result<MotionFeatures, Error> {
+    features_of(&canonicalise_window(motion)?)
+}
+
+/// The features of a motion that is in its place.
+fn features_of(motion: &JointPositions) -> Result<MotionFeatures, Error> {
     let skeleton = motion.skeleton();
-    let bones = BoneRotations::from_positions(&motion, Heading::Smoothed)?;
+    let bones = BoneRotations::from_positions(motion, Heading::Smoothed)?;
     let mut values = Vec::with_capacity(motion.frame_count() * skeleton.feature_count());
     let now = motion.frames().zip(bones.frames());
     let next = motion.frames().zip(bones.frames()).skip(1);

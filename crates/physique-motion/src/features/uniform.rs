@@ -15,7 +15,6 @@ use crate::Error;
 /// # Errors
 /// [`Error::NoHeading`] and [`Error::NoBone`] as [`BoneRotations::from_positions`].
 pub fn canonicalise(motion: &JointPositions) -> Result<JointPositions, Error> {
-    let skeleton = motion.skeleton();
     let mut positions = with_uniform_bones(motion)?;
     let lowest = positions
         .iter()
@@ -23,11 +22,26 @@ pub fn canonicalise(motion: &JointPositions) -> Result<JointPositions, Error> {
     for joint in &mut positions {
         joint.y -= lowest;
     }
+    placed(motion, positions)
+}
+
+/// A window of a motion that stands on its floor already, as [`canonicalise`] leaves it: heights
+/// stay, for a window in mid-air has no foot on the ground; all else is done anew, so that the
+/// window begins at the origin facing +Z. The mirror image of such a motion is welcome, too.
+///
+/// # Errors
+/// As [`canonicalise`].
+pub fn canonicalise_window(motion: &JointPositions) -> Result<JointPositions, Error> {
+    placed(motion, with_uniform_bones(motion)?)
+}
+
+/// The positions from the origin on, facing +Z.
+fn placed(motion: &JointPositions, mut positions: Vec<Vec3>) -> Result<JointPositions, Error> {
     let start = Vec3::new(positions[0].x, 0.0, positions[0].z);
     for joint in &mut positions {
         *joint -= start;
     }
-    let forward = facing(skeleton, &positions).and_then(Vec3::try_normalize);
+    let forward = facing(motion.skeleton(), &positions).and_then(Vec3::try_normalize);
     let turn = between(forward.ok_or(heading::unknown(0))?, Vec3::Z);
     for joint in &mut positions {
         *joint = rotate(turn, *joint);

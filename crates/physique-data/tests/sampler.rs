@@ -1,0 +1,101 @@
+//! What training steps see.
+
+mod support;
+
+use std::collections::HashMap;
+
+use physique_data::{Order, Sampler, SamplerOptions, Split};
+use support::{RECIPE, built, folder};
+
+fn options(order: Order) -> SamplerOptions {
+    SamplerOptions {
+        order,
+        ..SamplerOptions::default()
+    }
+}
+
+#[test]
+fn a_pass_sees_every_clip_once_and_a_step_is_a_pure_function() {
+    let folder = folder();
+    let (dataset, _) = built(RECIPE, folder.path());
+    let sampler = Sampler::new(&dataset, options(Order::Passes)).unwrap();
+    assert_eq!(sampler.clip_count(), 6);
+    assert_eq!(sampler.steps_a_pass(2), 3);
+    let mut orders = Vec::new();
+    for pass in 0..4 {
+        let steps = (0..3).map(|step| sampler.draw(3 * pass + step, 2));
+        let drawn: Vec<usize> = steps.flatten().map(|drawn| drawn.window.clip).collect();
+        let mut sorted = drawn.clone();
+        sorted.sort_unstable();
+        let expected: Vec<usize> = dataset.clips_of(Split::Train).collect();
+        assert_eq!(sorted, expected);
+        orders.push(drawn);
+    }
+    orders.dedup();
+    assert_eq!(orders.len(), 4, "every pass has an order of its own");
+
+    let again = Sampler::new(&dataset, options(Order::Passes)).unwrap();
+    assert_eq!(again.draw(7, 2), sampler.draw(7, 2));
+    let other_seed = SamplerOptions {
+        seed: 11,
+        ..options(Order::Passes)
+    };
+    let other = Sampler::new(&dataset, other_seed).unwrap();
+    let (a, b): (Vec<_>, Vec<_>) = (0..9)
+        .map(|s| (other.draw(s, 2), sampler.draw(s, 2)))
+        .unzip();
+    assert_ne!(a, b);
+}
+
+#[test]
+fn windows_are_within_clips_and_captions_belong_to_them() {
+    let folder = folder();
+    let (dataset, _) = built(RECIPE, folder.path());
+    let index = dataset.index();
+    let sampler = Sampler::new(&dataset, options(Order::BalancedBy("content".into()))).unwrap();
+    let mut lengths: HashMap<usize, usize> = HashMap::new();
+    let mut contents: HashMap<&str, usize> = HashMap::new();
+    for drawn in (0..400).flat_map(|step| sampler.draw(step, 8)) {
+        let clip = &index.clips[drawn.window.clip];
+        assert_eq!(clip.split, Split::Train);
+        assert!(drawn.window.start + drawn.window.frames <= clip.frames);
+        assert!(drawn.window.frames.is_multiple_of(4));
+        dataset.features(drawn.window).unwrap();
+        let set = &index.caption_sets[clip.captions];
+        assert!(set.training.contains(&drawn.caption.unwrap()));
+        *lengths.entry(drawn.window.frames).or_default() += 1;
+        *contents.entry(&clip.labels["content"]).or_default() += 1;
+    }
+    assert!(
+        *lengths.keys().max().unwrap() <= 40,
+        "the longest window has 2 s: {lengths:?}"
+    );
+    // Seconds are a fraction of a walk's two clips each for the turns: the square root evens it out.
+    let walk = index.clips.iter().filter(|clip| clip.split == Split::Train);
+    let mut rows: HashMap<&str, usize> = HashMap::new();
+    for clip in walk {
+        *rows.entry(&clip.labels["content"]).or_default() += clip.frames;
+    }
+    let total: f64 = rows.values().map(|&rows| (rows as f64).sqrt()).sum();
+    for (content, rows) in rows {
+        let expected = 3200.0 * (rows as f64).sqrt() / total;
+        let found = contents[content] as f64;
+        // Five standard deviations of a binomial of 3200 draws are below 142.
+        assert!(
+            (found - expected).abs() < 142.0,
+            "{content}: {found}, expected {expected}"
+        );
+    }
+}
+
+#[test]
+fn nothing_to_draw_is_an_error() {
+    let folder = folder();
+    let (dataset, _) = built(RECIPE, folder.path());
+    let nothing = SamplerOptions {
+        split: Split::Validation,
+        ..SamplerOptions::default()
+    };
+    let problem = Sampler::new(&dataset, nothing).unwrap_err().to_string();
+    assert!(problem.contains("validation"), "{problem}");
+}
