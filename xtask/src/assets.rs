@@ -18,7 +18,7 @@ struct Recipe {
     assets: &'static str,
 }
 
-const RECIPES: [Recipe; 3] = [
+const RECIPES: [Recipe; 4] = [
     Recipe {
         tool: "open_body",
         assets: "crates/physique-body/assets",
@@ -26,6 +26,10 @@ const RECIPES: [Recipe; 3] = [
     Recipe {
         tool: "clips",
         assets: "crates/physique-motion/assets",
+    },
+    Recipe {
+        tool: "minilm",
+        assets: "crates/physique-text/assets",
     },
     Recipe {
         tool: "fonts",
