@@ -24,7 +24,7 @@ pub struct Dataset {
 }
 
 impl Dataset {
-    /// Opens a file. It must not be written to while it is open; [`crate::build`] never does: it
+    /// Opens a file. It must not be written to while it is open; [`crate::build()`] never does: it
     /// puts a new file in the place of an old one.
     ///
     /// # Errors

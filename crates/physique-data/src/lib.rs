@@ -4,7 +4,7 @@
 //!   names carry, how labels become sentences, which wordings are held out, and how clips are split.
 //!   [`recipe::embedded`] has those of public archives. HumanML3D and KIT-ML folders need no recipe:
 //!   [`Source::Published`].
-//! * [`build`]: reads the folder, brings every clip to the 22 joints and to HumanML3D's skeleton,
+//! * [`build()`]: reads the folder, brings every clip to the 22 joints and to HumanML3D's skeleton,
 //!   lists what is broken with the reason, and writes the file. The same folder gives the same bytes,
 //!   for any number of threads.
 //! * [`Dataset`]: opens the file without reading it; windows of clips as features, in batches.
