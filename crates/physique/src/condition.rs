@@ -121,23 +121,13 @@ fn parse_comparison(text: &str) -> Result<Comparison, String> {
 
 #[cfg(test)]
 mod tests {
+    use physique_motion::FrameRate;
+
     use super::*;
 
     fn score(frames: usize, duration_s: f64) -> MotionScore {
-        MotionScore {
-            frames,
-            frame_rate_fps: 30.0,
-            duration_s,
-            floor_height_m: None,
-            self_intersection: None,
-            ground: None,
-            feet: None,
-            balance: None,
-            smoothness: None,
-            sia: None,
-            published: Vec::new(),
-            series: None,
-        }
+        let frame_rate = FrameRate::new(frames as f64 / duration_s).unwrap();
+        MotionScore::unmeasured(frames, frame_rate)
     }
 
     fn holds(condition: &str, score: &MotionScore) -> Option<bool> {

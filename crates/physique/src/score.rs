@@ -2,7 +2,7 @@
 
 use physique_body::Body;
 use physique_geometry::ScanOptions;
-use physique_motion::Motion;
+use physique_motion::{FrameRate, Motion};
 use physique_physics::protocol::measure as measure_published;
 use physique_physics::{Floor as MotionFloor, Physics, PhysicsOptions};
 use rayon::prelude::*;
@@ -86,6 +86,26 @@ pub struct MotionScore {
     pub series: Option<Series>,
 }
 
+impl MotionScore {
+    /// What is known of a motion before anything is measured.
+    pub(crate) fn unmeasured(frames: usize, frame_rate: FrameRate) -> Self {
+        Self {
+            frames,
+            frame_rate_fps: frame_rate.per_second(),
+            duration_s: frames as f64 * frame_rate.frame_seconds(),
+            floor_height_m: None,
+            self_intersection: None,
+            ground: None,
+            feet: None,
+            balance: None,
+            smoothness: None,
+            sia: None,
+            published: Vec::new(),
+            series: None,
+        }
+    }
+}
+
 /// Scores a motion on a body with the default options: 1 cm lines, all threads.
 ///
 /// # Errors
@@ -164,20 +184,7 @@ impl Scorer {
         }
         let frame_s = motion.frame_rate().frame_seconds();
         let mut series = Series::new(motion.frame_count(), frame_s);
-        let mut score = MotionScore {
-            frames: motion.frame_count(),
-            frame_rate_fps: motion.frame_rate().per_second(),
-            duration_s: motion.seconds(),
-            floor_height_m: None,
-            self_intersection: None,
-            ground: None,
-            feet: None,
-            balance: None,
-            smoothness: None,
-            sia: None,
-            published: Vec::new(),
-            series: None,
-        };
+        let mut score = MotionScore::unmeasured(motion.frame_count(), motion.frame_rate());
         let scanned = self.options.wants(Group::SelfIntersection);
         let counted = self.options.protocols.contains(&Protocol::Sia);
         if scanned {
