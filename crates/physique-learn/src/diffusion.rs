@@ -6,18 +6,21 @@
 //! | what | where |
 //! |---|---|
 //! | how much noise a step holds | [`Schedule`] |
+//! | from clean to noisy | [`add_noise`] |
 //! | ancestral sampling and DDIM | [`Sampler`] |
 //! | what a sample's noise is | [`NoiseStreams`] |
 //! | classifier-free guidance | [`guide`] |
 //! | in-betweening, the upper body, any joints and frames | [`Edit`] |
 
 mod edit;
+mod forward;
 mod guidance;
 mod noise;
 mod sampler;
 mod schedule;
 
 pub use edit::{BatchEdit, Edit};
+pub use forward::add_noise;
 pub use guidance::guide;
 pub use noise::NoiseStreams;
 pub use sampler::{Method, Sampler};

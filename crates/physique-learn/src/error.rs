@@ -10,6 +10,9 @@ pub enum Error {
     /// A file could not be read or written.
     #[error(transparent)]
     File(#[from] physique_files::FileError),
+    /// Features that are none.
+    #[error(transparent)]
+    Motion(Box<physique_motion::Error>),
     /// A file that is broken, or that holds more than data.
     #[error("{file}: {problem}")]
     Content {
@@ -94,6 +97,12 @@ pub enum Error {
         /// What was given.
         found: String,
     },
+}
+
+impl From<physique_motion::Error> for Error {
+    fn from(error: physique_motion::Error) -> Self {
+        Self::Motion(Box::new(error))
+    }
 }
 
 impl Error {

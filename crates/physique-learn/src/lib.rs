@@ -6,6 +6,7 @@
 //! | denoising diffusion: schedules, sampling, guidance, editing | [`diffusion`] |
 //! | the published evaluation: networks and metrics | [`evaluation`] |
 //! | captions as numbers | [`text`] |
+//! | the self-intersection loss as one operation in Burn's graph | [`motion_loss`] |
 //! | layers with PyTorch's parameter names | [`layers`] |
 //! | a network's numbers by name, strictly loaded | [`parameters`] |
 //! | PyTorch's checkpoints as data, and our own files | [`checkpoint`] |
@@ -21,6 +22,7 @@ pub mod error;
 pub mod evaluation;
 pub mod layers;
 pub mod mdm;
+pub mod motion_loss;
 pub mod parameters;
 pub mod random;
 mod tensors;

@@ -63,18 +63,25 @@ impl Schedule {
             let expected = "a finite number above 0";
             return Err(Error::setting("signal", expected, factor));
         }
-        let mut before = 1.0;
-        let betas = self.kept.iter().map(|kept| {
+        let kept = self.kept.iter().map(|kept| {
             let ratio = factor * kept / (1.0 - kept);
-            let kept = ratio / (1.0 + ratio);
-            let beta = 1.0 - kept / before;
-            before = kept;
-            beta
+            ratio / (1.0 + ratio)
         });
-        Ok(Self::from_betas(
-            betas.collect(),
-            self.network_steps.clone(),
-        ))
+        Ok(Self::from_kept(kept.collect(), self.network_steps.clone()))
+    }
+
+    /// With alpha-bar as given, to the bit.
+    fn from_kept(kept: Vec<f64>, network_steps: Vec<usize>) -> Self {
+        let before = std::iter::once(&1.0).chain(&kept);
+        let betas = kept
+            .iter()
+            .zip(before)
+            .map(|(kept, before)| 1.0 - kept / before);
+        Self {
+            betas: betas.collect(),
+            kept,
+            network_steps,
+        }
     }
 
     fn from_betas(betas: Vec<f64>, network_steps: Vec<usize>) -> Self {
@@ -125,13 +132,10 @@ impl Schedule {
     }
 
     fn with_steps(&self, steps: impl Iterator<Item = usize>) -> Self {
-        let (mut betas, mut network_steps, mut before) = (Vec::new(), Vec::new(), 1.0);
-        for step in steps {
-            betas.push(1.0 - self.kept[step] / before);
-            network_steps.push(self.network_steps[step]);
-            before = self.kept[step];
-        }
-        Self::from_betas(betas, network_steps)
+        let steps: Vec<usize> = steps.collect();
+        let kept = steps.iter().map(|&step| self.kept[step]);
+        let network_steps = steps.iter().map(|&step| self.network_steps[step]);
+        Self::from_kept(kept.collect(), network_steps.collect())
     }
 
     /// Number of steps.

@@ -5,7 +5,8 @@ use burn::tensor::{Device, Tensor, TensorData};
 /// Rows of the table of positions, `[positions][width]`: sine in even columns, cosine in odd ones,
 /// of the position times 10000^(-2i / width).
 ///
-/// Angles are rounded to 32 bits as PyTorch rounds them: at position 1,000 that is 6e-5 radians.
+/// Angles are rounded to 32 bits, as PyTorch rounds them but for the last bit of its exponential: at
+/// position 1,000 that is 6e-5 radians.
 pub fn rows(positions: impl ExactSizeIterator<Item = usize>, width: usize) -> Vec<f32> {
     let scale = -(10_000.0_f64.ln() / width as f64) as f32;
     let mut rows = Vec::with_capacity(positions.len() * width);

@@ -8,6 +8,7 @@ use crate::text::Embeddings;
 
 /// What each motion of a batch is to be, in the terms of [`super::ConditionKind`].
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there is one a batch")]
 pub enum Condition {
     /// Anything.
     Nothing,

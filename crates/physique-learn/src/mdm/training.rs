@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::losses::{FrameMask, squared_error, velocity_error};
 use super::{Condition, Mdm, MdmQuery};
 use crate::Error;
-use crate::diffusion::Schedule;
+use crate::diffusion::{Schedule, add_noise};
 use crate::layers::Dropout;
 use crate::random::Random;
 use crate::tensors::tensor;
@@ -135,24 +135,19 @@ impl<S: MotionSource> MdmTask<S> {
     /// Draws a step of diffusion, noise, and whether the condition counts, for each motion: each
     /// from a stream of its own.
     fn noised(&self, features: Vec<f32>, shape: [usize; 3], path: [u64; 2]) -> Noised {
-        let [batch, frames, columns] = shape;
-        let (mut steps, mut conditioned, mut factors) = (Vec::new(), Vec::new(), [vec![], vec![]]);
+        let [_, frames, columns] = shape;
+        let (mut steps, mut conditioned) = (Vec::new(), Vec::new());
         let mut noise = vec![0.0; features.len()];
         for (motion, noise) in noise.chunks_exact_mut(frames * columns).enumerate() {
             let mut random = Random::new(&[PURPOSE, path[0], path[1], motion as u64]);
-            let step = random.below(self.schedule.len());
+            steps.push(random.below(self.schedule.len()));
             conditioned.push(random.unit() >= self.training.unconditioned);
             random.fill_normal(noise);
-            let kept = self.schedule.kept()[step];
-            factors[0].push(kept.sqrt() as f32);
-            factors[1].push((1.0 - kept).sqrt() as f32);
-            steps.push(step);
         }
-        let [signal, spread] = factors.map(|factors| tensor(factors, [batch, 1, 1], &self.device));
         let clean = tensor(features, shape, &self.device);
         let noise = tensor(noise, shape, &self.device);
         Noised {
-            noisy: clean.clone() * signal + noise * spread,
+            noisy: add_noise(&self.schedule, clean.clone(), &steps, noise),
             clean,
             steps,
             conditioned,

@@ -115,3 +115,57 @@ impl AdamW {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use burn::module::{Module, Param};
+    use burn::tensor::{Device, Tensor};
+
+    use super::{AdamW, AdamWConfig, NamedGradients};
+
+    #[derive(Module, Debug)]
+    struct Three {
+        weight: Param<Tensor<1>>,
+    }
+
+    /// Against `torch.optim.AdamW` with these settings, parameters and gradients.
+    #[test]
+    fn takes_the_steps_of_pytorch() {
+        let device = Device::flex();
+        let tensor = |values: [f32; 3]| Tensor::<1>::from_data(values, &device);
+        let mut network = Three {
+            weight: Param::from_tensor(tensor([0.5, -1.0, 2.0])),
+        };
+        let mut optimiser = AdamW::new(AdamWConfig {
+            rate: 0.01,
+            beta2: 0.99,
+            weight_decay: 0.1,
+            ..AdamWConfig::default()
+        });
+        let steps = [
+            (
+                [0.1, -2.0, 0.0],
+                [0.489_500_016, -0.989_000_022, 1.998_000_03],
+            ),
+            (
+                [0.3, 1.0, -4.0],
+                [0.479_849_249, -0.985_344_052, 2.003_426_79],
+            ),
+            (
+                [-0.2, 0.5, 1e-4],
+                [0.476_792_842, -0.983_742_833, 2.007_175_45],
+            ),
+        ];
+        for (gradient, expected) in steps {
+            let gradients = BTreeMap::from([("weight".to_owned(), tensor(gradient))]);
+            network = optimiser.step(network, NamedGradients(gradients), 1.0);
+            let found = network.weight.val().into_data().try_into_vec::<f32>();
+            for (found, expected) in found.expect("floats").into_iter().zip(expected) {
+                let close = (f64::from(found) - expected).abs() < 3e-7;
+                assert!(close, "{found} {expected}");
+            }
+        }
+    }
+}

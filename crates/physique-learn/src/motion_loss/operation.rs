@@ -1,0 +1,146 @@
+//! The operation in Burn's graph.
+
+use std::sync::Arc;
+
+use burn::backend::autodiff::Autodiff;
+use burn::backend::autodiff::checkpoint::base::Checkpointer;
+use burn::backend::autodiff::checkpoint::strategy::CheckpointStrategy;
+use burn::backend::autodiff::grads::Gradients;
+use burn::backend::autodiff::ops::{Backward, Ops, OpsKind};
+use burn::backend::tensor::FloatTensor;
+use burn::backend::{
+    AutodiffBackend, Backend, Dispatch, ExtensionType, Flex, TensorMetadata, backend_extension,
+};
+use burn::tensor::{Shape, Tensor, TensorData};
+
+use super::{LossAndGradient, MotionLoss};
+
+/// The loss of each motion, `[batch]`, of normalised motions `[batch][frames][columns]`.
+///
+/// One operation: loss and gradient are computed together going forward, so that going back is one
+/// product. A motion that is no motion, of NaN for instance, has the loss NaN.
+pub fn losses(motions: Tensor<3>, lengths: &[usize], loss: &Arc<dyn MotionLoss>) -> Tensor<1> {
+    let motions = motions.into_dispatch();
+    let losses = <Dispatch as MotionLossOps>::motion_losses(motions, loss.clone(), lengths.into());
+    Tensor::from_dispatch(losses)
+}
+
+/// What the backward pass needs.
+#[derive(ExtensionType)]
+pub(crate) struct LossTensors<B: Backend> {
+    /// `[batch]`.
+    pub losses: FloatTensor<B>,
+    /// As the motions.
+    pub gradient: FloatTensor<B>,
+}
+
+/// Backends that evaluate a [`MotionLoss`].
+#[backend_extension(Autodiff, Flex)]
+pub(crate) trait MotionLossOps: Backend {
+    /// The loss of each motion.
+    fn motion_losses(
+        motions: FloatTensor<Self>,
+        loss: Arc<dyn MotionLoss>,
+        lengths: Vec<usize>,
+    ) -> FloatTensor<Self>;
+
+    /// The loss of each motion, and the gradient of their sum.
+    fn motion_losses_with_gradient(
+        motions: FloatTensor<Self>,
+        loss: Arc<dyn MotionLoss>,
+        lengths: Vec<usize>,
+    ) -> LossTensors<Self>;
+}
+
+impl MotionLossOps for Flex {
+    fn motion_losses(
+        motions: FloatTensor<Self>,
+        loss: Arc<dyn MotionLoss>,
+        lengths: Vec<usize>,
+    ) -> FloatTensor<Self> {
+        Self::motion_losses_with_gradient(motions, loss, lengths).losses
+    }
+
+    fn motion_losses_with_gradient(
+        motions: FloatTensor<Self>,
+        loss: Arc<dyn MotionLoss>,
+        lengths: Vec<usize>,
+    ) -> LossTensors<Self> {
+        let shape = motions.shape();
+        let (batch, frames) = (shape[0], shape[1]);
+        let numbers: Vec<f32> = motions.to_contiguous().into_data().iter::<f32>().collect();
+        let found = loss.evaluate(&numbers, frames, &lengths);
+        // An operation cannot fail; what cannot be measured is no number, which training stops at.
+        let LossAndGradient { losses, gradient } = found.unwrap_or_else(|_| LossAndGradient {
+            losses: vec![f32::NAN; batch],
+            gradient: vec![0.0; numbers.len()],
+        });
+        let of = |values: Vec<f32>, shape: Shape| {
+            FloatTensor::<Self>::from_data(TensorData::new(values, shape))
+        };
+        LossTensors {
+            losses: of(losses, Shape::new([batch])),
+            gradient: of(gradient, shape),
+        }
+    }
+}
+
+/// Going back: each motion's gradient times that of its loss.
+#[derive(Debug)]
+struct ByMotions;
+
+impl<B: Backend> Backward<B, 1> for ByMotions {
+    type State = FloatTensor<B>;
+
+    fn backward(
+        self,
+        ops: Ops<Self::State, 1>,
+        gradients: &mut Gradients,
+        _checkpointer: &mut Checkpointer,
+    ) {
+        let [motions] = ops.parents;
+        let by_losses = gradients.consume::<B>(&ops.node);
+        if let Some(motions) = motions {
+            let batch = by_losses.shape()[0];
+            let by_losses = B::float_reshape(by_losses, Shape::new([batch, 1, 1]));
+            gradients.register::<B>(motions.id, B::float_mul(ops.state, by_losses));
+        }
+    }
+}
+
+impl<B: MotionLossOps, C: CheckpointStrategy> MotionLossOps for Autodiff<B, C> {
+    fn motion_losses(
+        motions: FloatTensor<Self>,
+        loss: Arc<dyn MotionLoss>,
+        lengths: Vec<usize>,
+    ) -> FloatTensor<Self> {
+        match ByMotions
+            .prepare::<C>([motions.node()])
+            .compute_bound()
+            .stateful()
+        {
+            OpsKind::Tracked(prepared) => {
+                let inner = motions.primitive().clone();
+                let found = B::motion_losses_with_gradient(inner, loss, lengths);
+                prepared.finish(found.gradient, found.losses)
+            }
+            OpsKind::UnTracked(prepared) => {
+                let inner = motions.into_primitive();
+                prepared.finish(B::motion_losses(inner, loss, lengths))
+            }
+        }
+    }
+
+    fn motion_losses_with_gradient(
+        motions: FloatTensor<Self>,
+        loss: Arc<dyn MotionLoss>,
+        lengths: Vec<usize>,
+    ) -> LossTensors<Self> {
+        // Not differentiated twice: both are constants.
+        let found = B::motion_losses_with_gradient(motions.into_primitive(), loss, lengths);
+        LossTensors {
+            losses: Self::from_inner(found.losses),
+            gradient: Self::from_inner(found.gradient),
+        }
+    }
+}
