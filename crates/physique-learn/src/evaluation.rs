@@ -13,6 +13,7 @@
 //! | interval | how sure the mean of the repetitions is | [`Interval`] |
 
 mod diversity;
+mod evaluator;
 mod frechet;
 mod interval;
 mod networks;
@@ -21,9 +22,9 @@ mod points;
 mod retrieval;
 
 pub use diversity::{diversity, multimodality};
+pub use evaluator::{CaptionWords, Evaluator};
 pub use frechet::{Moments, frechet_distance};
 pub use interval::Interval;
-pub use networks::{CaptionWords, Evaluator};
 pub use numpy_random::NumpyRandom;
 pub use points::Points;
 pub use retrieval::{RETRIEVAL_BATCH, Retrieval};

@@ -5,7 +5,7 @@
 //! | the motion diffusion model | [`mdm`] |
 //! | denoising diffusion: schedules, sampling, guidance, editing | [`diffusion`] |
 //! | the published evaluation: networks and metrics | [`evaluation`] |
-//! | captions as numbers | [`text`] |
+//! | encoded captions | [`text`] |
 //! | the self-intersection loss as one operation in Burn's graph | [`motion_loss`] |
 //! | layers with PyTorch's parameter names | [`layers`] |
 //! | a network's numbers by name, strictly loaded | [`parameters`] |

@@ -2,10 +2,13 @@
 //!
 //! A transformer sees noisy features of a motion, the step of diffusion and what the motion is to
 //! be, and predicts the clean features. [`Mdm`] is the network, [`MdmConfig`] its shape,
-//! [`Condition`] what a batch is to be; [`read_published`] reads published checkpoints.
+//! [`Condition`] what a batch is to be; [`read_published`] reads published checkpoints, [`MdmTask`]
+//! trains a network, and [`generate`] samples motions from one.
 
 mod condition;
 mod config;
+mod folder;
+mod generate;
 pub mod losses;
 mod network;
 mod published;
@@ -14,6 +17,8 @@ mod training;
 
 pub use condition::Condition;
 pub use config::{Architecture, ConditionKind, MdmConfig};
+pub use folder::{MdmDescription, MdmFolder};
+pub use generate::{GenerateRequest, generate};
 pub use network::{Mdm, MdmQuery};
 pub use published::{PublishedArguments, from_parameters, parameters_of, read_published};
 pub use training::{MdmTask, MdmTraining};

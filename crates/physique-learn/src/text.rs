@@ -1,8 +1,9 @@
-//! Captions as numbers: what networks are told to generate.
+//! Encoded captions: what networks are told to generate.
 
-use crate::Error;
+use physique_text::TextEmbeddings;
 
-/// What an encoder makes of a batch of captions: `tokens` vectors of `width` numbers for each.
+/// What a [`TextEncoder`](physique_text::TextEncoder) made of a batch of captions, or numbers in
+/// their place: `tokens` vectors of `width` numbers for each.
 ///
 /// An encoder that makes one vector of a whole sentence has one token.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,11 +20,14 @@ pub struct Embeddings {
     pub padding: Vec<bool>,
 }
 
-/// Something that turns captions into numbers, the same ones every time.
-pub trait TextEncoder {
-    /// Encodes a batch of captions; all get as many tokens as the longest needs.
-    ///
-    /// # Errors
-    /// Depends on the encoder; never on another caption of the batch.
-    fn encode(&self, captions: &[&str]) -> Result<Embeddings, Error>;
+impl From<&TextEmbeddings> for Embeddings {
+    fn from(embeddings: &TextEmbeddings) -> Self {
+        Self {
+            batch: embeddings.captions(),
+            tokens: embeddings.tokens(),
+            width: embeddings.width(),
+            values: embeddings.values().to_vec(),
+            padding: embeddings.mask().iter().map(|within| !within).collect(),
+        }
+    }
 }

@@ -10,8 +10,10 @@ use physique_learn::checkpoint::{
 };
 use physique_learn::layers::Dropout;
 use physique_learn::mdm::{
-    Condition, Mdm, MdmQuery, PublishedArguments, from_parameters, parameters_of, read_published,
+    Condition, ConditionKind, Mdm, MdmConfig, MdmDescription, MdmFolder, MdmQuery,
+    PublishedArguments, from_parameters, parameters_of, read_published,
 };
+use physique_motion::features::{FeatureSkeleton, FeatureStatistics};
 
 fn fixture(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/checkpoints");
@@ -169,4 +171,65 @@ fn our_own_files_keep_every_bit() {
     assert_eq!(words["step"], "7");
     let model = from_parameters(again, &arguments, &Device::flex()).expect("whole");
     assert!(error(&model) < 2e-6);
+}
+
+#[test]
+fn a_folder_of_ours_is_all_that_is_needed() {
+    let skeleton = FeatureSkeleton::Kit;
+    let columns = skeleton.feature_count();
+    let config = MdmConfig {
+        columns,
+        width: 8,
+        layers: 1,
+        heads: 2,
+        feed_forward: 6,
+        condition: ConditionKind::Sentence { width: 3 },
+        ..MdmConfig::default()
+    };
+    let mean = (0..columns).map(|column| column as f32 * 0.1).collect();
+    let deviation = (0..columns).map(|column| 1.0 + column as f32).collect();
+    let written = MdmFolder {
+        network: Mdm::new(&config, 4, &Device::flex()).expect("possible"),
+        statistics: FeatureStatistics::new(skeleton, mean, deviation).expect("possible"),
+        description: MdmDescription {
+            frame_rate: 12.5,
+            diffusion_steps: 50,
+            signal: 0.09,
+            text_encoder: "a test".into(),
+            notes: [("licence".to_owned(), "CC0".to_owned())].into(),
+        },
+    };
+    let root = tempfile::tempdir().expect("a folder");
+    let folder = root.path().join("new/folder");
+    written.write(&folder).expect("written");
+    let limits = CheckpointLimits::default();
+    let read = || MdmFolder::read(&folder, &limits, &Device::flex());
+    let found = read().expect("just written");
+    assert_eq!(found.network.config(), &config);
+    assert_eq!(found.statistics, written.statistics);
+    assert_eq!(found.description, written.description);
+    let parameters = |folder: &MdmFolder| {
+        let parameters = parameters_of(&folder.network, "").expect("readable");
+        parameters.arrays
+    };
+    assert_eq!(parameters(&found), parameters(&written));
+
+    // Numbers of another network, another format, half a file.
+    let path = folder.join("config.json");
+    let text = std::fs::read_to_string(&path).expect("text");
+    let other = text.replace("\"layers\": 1", "\"layers\": 2");
+    std::fs::write(&path, other).expect("written");
+    let told = read().expect_err("a layer is missing").to_string();
+    assert!(
+        told.contains("`seqTransEncoder.layers.1.linear1.bias`"),
+        "{told}"
+    );
+    std::fs::write(&path, text.replace("mdm 1", "mdm 2")).expect("written");
+    let told = read().expect_err("a later format").to_string();
+    assert!(
+        told.contains("`format`") && told.contains("mdm 2"),
+        "{told}"
+    );
+    std::fs::write(&path, &text[..text.len() / 2]).expect("written");
+    assert!(read().is_err());
 }

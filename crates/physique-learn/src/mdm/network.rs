@@ -77,6 +77,12 @@ impl Mdm {
         &self.config
     }
 
+    /// Where the network's numbers are.
+    pub(super) fn device(&self) -> Device {
+        let mut devices = self.devices().into_iter();
+        devices.next().unwrap_or_default()
+    }
+
     /// The prediction of the clean motions x_0, `[batch][frames][columns]`.
     ///
     /// # Errors

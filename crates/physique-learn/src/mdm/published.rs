@@ -11,7 +11,7 @@ use crate::checkpoint::{CheckpointLimits, TorchCheckpoint};
 use crate::parameters::{NameTable, Parameters};
 
 /// Our paths and the published names.
-const NAMES: NameTable = &[
+pub(super) const NAMES: NameTable = &[
     ("pose_embedding", "input_process.poseEmbedding"),
     ("time_embedding.first", "embed_timestep.time_embed.0"),
     ("time_embedding.second", "embed_timestep.time_embed.2"),

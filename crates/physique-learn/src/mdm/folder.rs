@@ -1,0 +1,136 @@
+//! Our own files of a network: a folder with all that is needed to use it.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use burn::tensor::Device;
+use physique_files::npz::npy_f32;
+use physique_files::{FileError, write_file};
+use physique_motion::Limits;
+use physique_motion::features::FeatureStatistics;
+use serde::{Deserialize, Serialize};
+
+use super::published::NAMES;
+use super::{Mdm, MdmConfig, parameters_of};
+use crate::Error;
+use crate::checkpoint::{CheckpointLimits, read_safetensors, write_safetensors};
+
+const FORMAT: &str = "physique-mdm 1";
+const NETWORK: &str = "model.safetensors";
+const CONFIG: &str = "config.json";
+const MEAN: &str = "mean.npy";
+const DEVIATION: &str = "std.npy";
+
+/// A network with what it takes to use it.
+#[derive(Clone, Debug)]
+pub struct MdmFolder {
+    /// The network.
+    pub network: Mdm,
+    /// What its motions are normalised by.
+    pub statistics: FeatureStatistics,
+    /// What else there is to know.
+    pub description: MdmDescription,
+}
+
+/// What there is to know of a network besides its shape and numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MdmDescription {
+    /// Frames a second of its motions.
+    pub frame_rate: f64,
+    /// Steps of diffusion that it was trained with.
+    pub diffusion_steps: usize,
+    /// Factor of the schedule's signal-to-noise ratio, see
+    /// [`Schedule::with_signal`](crate::diffusion::Schedule::with_signal).
+    pub signal: f64,
+    /// Name of the text encoder; empty for networks without captions.
+    pub text_encoder: String,
+    /// Data, licence and the like, by name.
+    pub notes: BTreeMap<String, String>,
+}
+
+/// The content of `config.json`.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Config {
+    format: String,
+    network: MdmConfig,
+    description: MdmDescription,
+}
+
+impl MdmFolder {
+    /// Writes `model.safetensors` under the published names, `config.json`, `mean.npy` and
+    /// `std.npy` into a folder, which is made. Each file is written whole or not at all, the
+    /// configuration last: a folder that has one is whole.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn write(&self, folder: &Path) -> Result<(), Error> {
+        std::fs::create_dir_all(folder).map_err(|problem| FileError::Io {
+            path: folder.into(),
+            problem,
+        })?;
+        let parameters = parameters_of(&self.network, "the network")?;
+        let words = BTreeMap::from([("format".to_owned(), FORMAT.to_owned())]);
+        write_safetensors(&folder.join(NETWORK), &parameters, words)?;
+        for (name, values) in [
+            (MEAN, self.statistics.mean()),
+            (DEVIATION, self.statistics.deviation()),
+        ] {
+            let path = folder.join(name);
+            let file = npy_f32(&[values.len()], values).map_err(|problem| Error::Content {
+                file: path.clone(),
+                problem: Box::new(problem.into()),
+            })?;
+            write_file(&path, &file)?;
+        }
+        let config = Config {
+            format: FORMAT.into(),
+            network: self.network.config().clone(),
+            description: self.description.clone(),
+        };
+        let path = folder.join(CONFIG);
+        let text = serde_json::to_vec_pretty(&config).map_err(|problem| FileError::Io {
+            path: path.clone(),
+            problem: problem.into(),
+        })?;
+        Ok(write_file(&path, &text)?)
+    }
+
+    /// Reads what [`MdmFolder::write`] wrote.
+    ///
+    /// # Errors
+    /// [`Error::File`] for a file that is missing; [`Error::Checkpoint`] for one that is broken;
+    /// [`Error::Parameters`] and [`Error::ParameterShape`] for numbers of another network;
+    /// [`Error::Motion`] for statistics that are none; [`Error::Input`] for those of other features.
+    pub fn read(folder: &Path, limits: &CheckpointLimits, device: &Device) -> Result<Self, Error> {
+        let path = folder.join(CONFIG);
+        let text = physique_files::read_file(&path, 1 << 20)?;
+        let refuse = |place: String, found: String| Error::Checkpoint {
+            file: path.clone(),
+            place,
+            expected: format!("the configuration of a network, `{FORMAT}`"),
+            found,
+        };
+        let config: Config = serde_json::from_slice(&text)
+            .map_err(|problem| refuse(format!("line {}", problem.line()), problem.to_string()))?;
+        if config.format != FORMAT {
+            return Err(refuse("`format`".into(), format!("{:?}", config.format)));
+        }
+        let (parameters, _) = read_safetensors(&folder.join(NETWORK), limits)?;
+        let network = Mdm::new(&config.network, 0, device)?;
+        let network = parameters.load(network, "MDM", NAMES)?;
+        let (mean, deviation) = (folder.join(MEAN), folder.join(DEVIATION));
+        let statistics = FeatureStatistics::read(mean, deviation, &Limits::default())?;
+        if statistics.mean().len() != config.network.columns {
+            let expected = format!("{} columns, as the network has", config.network.columns);
+            let found = statistics.mean().len();
+            return Err(Error::input("Statistics", expected, found));
+        }
+        Ok(Self {
+            network,
+            statistics,
+            description: config.description,
+        })
+    }
+}
