@@ -3,7 +3,7 @@
 From the paper's equations: joint transforms are chained joint by joint, blended by dense weights
 (spheres x 22), centres are gathered pair by pair, `sum max(0, r_i + r_j - |c_i - c_j|)^2`, and
 autograd goes back to the rotation matrices. The time does not depend on the numbers, so they are
-made up; the sizes are those of the paper's proxy.
+made up; the sizes are those of the embedded proxy.
 
 Usage: sphere_loss.py [FRAMES ...]      as many threads as RAYON_NUM_THREADS, else all cores
 """
@@ -15,7 +15,7 @@ import time
 
 import torch
 
-SPHERES, PAIRS, JOINTS = 192, 17_075, 22
+SPHERES, PAIRS, JOINTS = 192, 16_759, 22
 PARENTS = [-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19]
 
 

@@ -31,6 +31,12 @@ const CRATES: [&str; 6] = [
     "physique-view",
 ];
 
+/// Examples that measure what no benchmark can, and print a table of their own.
+const TABLES: [(&str, &str); 2] = [
+    ("physique-proxy", "fit_speed"),
+    ("physique", "sphere_against_mesh"),
+];
+
 /// Goals of whole groups: every benchmark whose name begins so.
 const GOALS: [Goal; 7] = [
     Goal {
@@ -117,6 +123,10 @@ pub(crate) fn run(peers: bool) -> Result<()> {
         }
     }
     println!("{table}");
+    for (package, example) in TABLES {
+        let mut command = cargo(&["run", "--release", "-p", package, "--example", example]);
+        println!("== {example}\n{}", output(example, &mut command)?);
+    }
     if peers {
         skinning_peer(&rows)?;
         sphere_loss_peer()?;

@@ -2,9 +2,13 @@
 //! (13,776 triangles) in four poses, one thread. Run with `cargo bench -p physique-geometry`.
 #![allow(clippy::expect_used, reason = "a benchmark has no one to report to")]
 
-use divan::{Bencher, black_box};
+use divan::{Bencher, black_box, counter::ItemsCount};
+use glam::Vec3;
 use physique_geometry::sia::{SiaCounter, UnitBall};
-use physique_geometry::{ColumnScanner, PairOverlaps, ScanOptions, SharedVertices, TrianglePairs};
+use physique_geometry::{
+    ColumnScanner, NearestSurface, PairOverlaps, ScanOptions, SharedVertices, SignedDistances,
+    TrianglePairs, space_filling_order,
+};
 
 #[path = "fixtures/open_body.rs"]
 mod open_body;
@@ -75,4 +79,33 @@ fn find_pairs(bencher: Bencher<'_, '_>, pose: &str, shared: SharedVertices) {
     let mut pairs = TrianglePairs::new(&body.triangles, body.pose("rest"), shared).expect("finite");
     let positions = body.pose(pose);
     bencher.bench_local(|| pairs.find(black_box(positions)).expect("finite").len());
+}
+
+/// 100,000 points up to 7 cm from the skin, along a space-filling curve.
+#[divan::bench]
+fn signed_distances(bencher: Bencher<'_, '_>) {
+    let body = OpenBody::load();
+    let skin = body.pose("rest");
+    let distances = SignedDistances::new(&body.triangles, skin).expect("closed");
+    let points: Vec<Vec3> = (0..100_000_u32)
+        .map(|number| {
+            // Fractions of multiples of irrational numbers are spread evenly.
+            let spread = |ratio: f64| (f64::from(number) * ratio).fract() as f32 - 0.5;
+            let near = skin[number as usize % skin.len()];
+            near + 0.14 * Vec3::new(spread(0.819_173), spread(0.671_044), spread(0.549_701))
+        })
+        .collect();
+    let order = space_filling_order(&points);
+    let points: Vec<Vec3> = order.iter().map(|&index| points[index as usize]).collect();
+    let mut nearest = vec![NearestSurface::UNKNOWN; points.len()];
+    bencher
+        .counter(ItemsCount::new(points.len()))
+        .bench_local(|| distances.fill(black_box(&points), &mut nearest));
+}
+
+#[divan::bench]
+fn prepare_signed_distances(bencher: Bencher<'_, '_>) {
+    let body = OpenBody::load();
+    let skin = body.pose("rest");
+    bencher.bench_local(|| SignedDistances::new(&body.triangles, black_box(skin)).expect("closed"));
 }

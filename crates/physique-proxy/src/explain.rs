@@ -39,7 +39,7 @@ impl fmt::Display for PartOverlap {
 
 /// What a self-intersection loss sees in one pose, the deepest first.
 ///
-/// Compares every pair: some 30 microseconds for the paper's proxy.
+/// Compares every pair: some 50 microseconds for the paper's proxy.
 pub fn explain(body: &SphereBody, pairs: &Pairs, pose: &PoseMatrices) -> Vec<PartOverlap> {
     let mut centres = Vec::new();
     body.pose(pose, &mut centres);

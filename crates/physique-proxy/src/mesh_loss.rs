@@ -41,8 +41,8 @@ impl Default for MeshLossOptions {
 /// for the pairs that intersect: where a pair begins to, the loss jumps. The result is the same, to
 /// the bit, for any number of threads.
 ///
-/// Cost on a body of 13,776 triangles: one to three milliseconds a frame, some thousand times that of
-/// [`SelfIntersection`](crate::SelfIntersection), and 4 MB a thread; `docs/proxy.md` compares.
+/// Cost on a body of 13,776 triangles: about a millisecond a frame, some thousand times that of
+/// [`SelfIntersection`](crate::SelfIntersection), and 2 MB a thread; `docs/proxy.md` compares.
 pub struct MeshLoss {
     skin: Skin,
     triangles: Triangles,

@@ -1,9 +1,8 @@
 //! A sphere body and its pairs, laid out for the fused kernel.
 //!
-//! Spheres stand in the order of their dominant joints, and within a joint in *quads*: up to four
-//! neighbours. A joint's spheres are a *group*. The broad phase compares boxes of groups, then boxes
-//! of quads, then 4 x 4 spheres at once; a pair that is not to be compared has a threshold that
-//! nothing is below.
+//! Spheres stand limb by limb, and within a limb in *quads*: up to four neighbours. Up to three quads
+//! are a *group*. The broad phase compares boxes of groups, then boxes of quads, then 4 x 4 spheres at
+//! once; a pair that is not to be compared has a threshold that nothing is below.
 
 mod blends;
 mod quads;

@@ -46,7 +46,7 @@ pub struct SelfIntersection {
 }
 
 impl SelfIntersection {
-    /// Prepares the loss; some 0.1 ms for 192 spheres.
+    /// Prepares the loss; one to two milliseconds for 192 spheres.
     ///
     /// # Errors
     /// As [`SelfIntersection::with_options`].
@@ -131,7 +131,7 @@ impl SelfIntersection {
     }
 
     /// As [`SelfIntersection::gradient`]; returns the gradient by the shape as well, from which a
-    /// proxy's regressors have the one by the betas. Costs about a third more.
+    /// proxy's regressors have the one by the betas. Costs about twice as much.
     ///
     /// # Errors
     /// As [`SelfIntersection::losses`].

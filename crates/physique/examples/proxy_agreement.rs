@@ -28,8 +28,15 @@ type Failure = Box<dyn std::error::Error>;
 const FRAMES: usize = 5_000;
 const INTERSECTS_CM3: f64 = 50.0;
 const SIZES: [usize; 3] = [128, 192, 256];
-/// Reduced and all pairs of each size.
-const LOSSES: usize = 2 * SIZES.len();
+/// Which pairs are compared. Creases are between neighbours, which the last two leave out: parts fewer
+/// than two, and three, steps apart in the tree of joints.
+const KINDS: [&str; 4] = [
+    "all of different joints",
+    "reduced, as in the paper",
+    "reduced, no neighbours",
+    "reduced, three steps apart",
+];
+const LOSSES: usize = KINDS.len() * SIZES.len();
 
 /// One frame: which file it is of, the truth, and what the losses say.
 struct Row {
@@ -49,11 +56,15 @@ fn main() -> Result<(), Failure> {
     for size in SIZES {
         let proxy = open_proxy_with(size)?;
         let spheres = proxy.of_body(&body)?;
-        let all = Pairs::all(size)?.filtered(|i, j| {
-            // Spheres of one joint hardly move against each other: the ablation leaves them out, too.
-            spheres.dominant_joint(i) != spheres.dominant_joint(j)
-        });
-        for pairs in [proxy.pairs()?, all] {
+        let joint = |sphere| spheres.dominant_joint(sphere);
+        let steps = |i, j| joint(i).tree_distance(joint(j));
+        let reduced = proxy.pairs()?;
+        for pairs in [
+            Pairs::all(size)?.filtered(|i, j| steps(i, j) >= 1),
+            reduced.filtered(|i, j| steps(i, j) >= 1),
+            reduced.filtered(|i, j| steps(i, j) >= 2),
+            reduced.filtered(|i, j| steps(i, j) >= 3),
+        ] {
             losses.push((pairs.len(), SelfIntersection::new(&spheres, &pairs)?));
         }
     }
@@ -89,8 +100,8 @@ fn main() -> Result<(), Failure> {
     );
     println!("|--:|--:|---|--:|--:|--:|--:|--:|--:|--:|");
     for (index, (pairs, _)) in losses.iter().enumerate() {
-        let kind = ["reduced", "all of different joints"][index % 2];
-        report(SIZES[index / 2], *pairs, kind, index, &rows);
+        let (size, kind) = (SIZES[index / KINDS.len()], KINDS[index % KINDS.len()]);
+        report(size, *pairs, kind, index, &rows);
     }
     if let Some(path) = arguments.next() {
         std::fs::write(&path, scatter(&rows))?;
@@ -234,11 +245,12 @@ fn ranks(numbers: Vec<f64>) -> Vec<f64> {
     ranks
 }
 
-/// Volume against the loss of 192 spheres, reduced and all pairs.
+/// Volume against the loss of 192 spheres.
 fn scatter(rows: &[Row]) -> String {
     let mut picture = Picture::new();
-    for (index, kind) in [(2, "reduced pairs"), (3, "all pairs")] {
-        let title = format!("192 spheres, {kind}");
+    for kind in [1, 3] {
+        let index = KINDS.len() + kind;
+        let title = format!("192 spheres, pairs {}", KINDS[kind]);
         let x = Axis {
             title: "volume covered twice, cm³ (creases apart)",
             ticks: &[

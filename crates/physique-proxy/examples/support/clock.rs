@@ -4,6 +4,8 @@ use std::fs;
 
 /// Milliseconds that all threads of this process have run.
 pub(crate) fn processor_milliseconds() -> Result<f64, Box<dyn std::error::Error>> {
+    // The kernel books a running thread's time when it pauses.
+    std::thread::yield_now();
     let mut nanoseconds = 0.0;
     for thread in fs::read_dir("/proc/self/task")? {
         let times = fs::read_to_string(thread?.path().join("schedstat"))?;

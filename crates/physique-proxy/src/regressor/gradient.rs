@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::matrix::{Matrix, multiply};
-use super::network::{Activations, Layer, Network, dot, length};
+use super::matrix::{Matrix, dot, multiply};
+use super::network::{Activations, Layer, Network, length};
 
 /// Gradient of a loss with respect to all parameters and inputs of a network. Reuse it.
 #[derive(Clone, Debug, Default)]

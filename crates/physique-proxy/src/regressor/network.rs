@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::matrix::{Matrix, multiply};
+use super::matrix::{Matrix, dot, multiply};
 use crate::Error;
 
 /// The shape of a network.
@@ -276,19 +276,4 @@ impl Network {
 /// Euclidean length; sums in f64 lanes would cost more than they bring here.
 pub(crate) fn length(row: &[f32]) -> f32 {
     dot(row, row).sqrt()
-}
-
-/// Sum of products in 16 interleaved partial sums, so that it vectorises.
-pub(crate) fn dot(a: &[f32], b: &[f32]) -> f32 {
-    const LANES: usize = 16;
-    let mut sums = [0.0_f32; LANES];
-    let (a, a_rest) = a.as_chunks::<LANES>();
-    let (b, b_rest) = b.as_chunks::<LANES>();
-    for (a, b) in a.iter().zip(b) {
-        for lane in 0..LANES {
-            sums[lane] += a[lane] * b[lane];
-        }
-    }
-    let rest: f32 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f32>() + rest
 }
