@@ -19,8 +19,8 @@ pub struct RegressedSpheres {
 ///
 /// DualSDF's decoder (Hao et al., CVPR 2020) read from betas: four weight-normalised layers with
 /// rectifiers, the betas appended, four more, then a plain layer that gives `[log r, x, y, z]` a
-/// sphere. 2.2 million parameters for 192 spheres at the paper's width of 512. One shape takes
-/// about 0.3 ms.
+/// sphere. 2.2 million parameters for 192 spheres at the paper's width of 512, each read once for a
+/// shape: about a millisecond.
 #[derive(Clone, Debug)]
 pub struct SphereRegressor {
     network: Network,
