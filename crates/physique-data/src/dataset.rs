@@ -146,7 +146,7 @@ impl Dataset {
     /// Features of a window, not normalised: `[frames][263]` or `[frames][251]`.
     ///
     /// Of stored positions they are those of the window as a motion of its own, which begins at the
-    /// origin facing +Z. Cost: some 10 microseconds a row then, a copy otherwise.
+    /// origin facing +Z. Cost: some 2 microseconds a row then, a copy otherwise.
     ///
     /// # Errors
     /// [`Error::Window`] for rows that the clip does not have; [`Error::Motion`] for rows that were
