@@ -255,3 +255,48 @@ impl Workshop {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use physique::repair::Worse;
+
+    use super::*;
+
+    fn motion(outcome: Outcome) -> RepairedMotion {
+        let worse = Worse {
+            measure: "feet_slide_mean_cm_s".into(),
+            before: 1.0,
+            after: 3.5,
+        };
+        RepairedMotion {
+            outcome,
+            held_back_by: vec![worse],
+            ..RepairedMotion::failed("walk.bvh".into(), "walk.bvh".into(), "no frames".into())
+        }
+    }
+
+    #[test]
+    fn exit_codes_tell_failures_then_what_was_held_back() {
+        let exit = |outcomes: &[Outcome]| {
+            let motions: Vec<_> = outcomes.iter().copied().map(motion).collect();
+            exit_of(&motions)
+        };
+        assert_eq!(exit(&[Outcome::Sound, Outcome::RepairedInPart]), Exit::Done);
+        assert_eq!(
+            exit(&[Outcome::HeldBack, Outcome::Repaired]),
+            Exit::HeldBack
+        );
+        assert_eq!(exit(&[Outcome::HeldBack, Outcome::Failed]), Exit::Failed);
+    }
+
+    #[test]
+    fn a_repair_that_is_held_back_names_the_measure() {
+        for outcome in [Outcome::HeldBack, Outcome::RepairedInPart] {
+            let told = table::verdict(&motion(outcome));
+            assert!(
+                told.contains("feet_slide_mean_cm_s from 1.00 to 3.50"),
+                "{told}"
+            );
+        }
+    }
+}

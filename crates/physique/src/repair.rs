@@ -25,6 +25,7 @@ mod promise;
 pub mod report;
 mod rounds;
 mod stiffness;
+mod taken;
 mod touch;
 mod wrench;
 

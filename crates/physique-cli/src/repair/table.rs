@@ -58,7 +58,7 @@ pub(crate) fn verdict(motion: &RepairedMotion) -> String {
         .collect();
     let worse = worse.join(", ");
     match motion.outcome {
-        Outcome::Sound => "Nothing to repair: the motion stays as it is.".to_owned(),
+        Outcome::Sound => "Nothing is worth a change: the motion stays as it is.".to_owned(),
         Outcome::Repaired => "Repaired; no measure got worse.".to_owned(),
         Outcome::RepairedInPart => {
             format!("Repaired in part: going further would have brought {worse}.")

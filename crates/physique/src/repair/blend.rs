@@ -19,7 +19,7 @@ const MARGIN: f64 = 1.3;
 const VISIBLE_SLIDE_CM_S: f64 = 10.0;
 
 /// How much of a repair each window keeps.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Blend {
     window_s: f64,
     kept: Vec<f64>,
@@ -123,12 +123,6 @@ impl Blend {
             sums[window.min(self.kept.len() - 1)] += one - other;
         }
         sums
-    }
-}
-
-impl PartialEq for Blend {
-    fn eq(&self, other: &Self) -> bool {
-        self.kept == other.kept
     }
 }
 

@@ -18,6 +18,7 @@ use super::objective::Objective;
 use super::preconditioner::Preconditioner;
 use super::promise::Worse;
 use super::stiffness::Stiffness;
+use super::taken::{INVISIBLE, Taken};
 use super::touch::Touches;
 use super::{Change, Outcome, Repaired, Repairer};
 use crate::series::{Series, SupportName};
@@ -30,14 +31,8 @@ const AROUND_S: f64 = 0.25;
 /// How much stiffer trunk and legs are. Arms get out of the way first: that leaves feet and balance
 /// alone. Only what they cannot mend is left to the whole body.
 const BEARING: [f64; 2] = [30.0, 1.0];
-/// Faults of less than this are not visible: no second attempt.
-const INVISIBLE: f64 = 0.3;
-/// Rounds go on while they mend more than this part of the faults.
-const WORTHWHILE: f64 = 0.02;
 /// A descent ends when a step gains less than this part of the cost.
 const GAIN: f64 = 3e-4;
-/// A repair that breaks the promise is blended back where it mends this part of what is left.
-const BLENDED: f64 = 0.1;
 /// Most blends that are tried.
 const BLENDS: usize = 8;
 
@@ -56,49 +51,6 @@ pub(super) struct Rounds<'a> {
     ground: Option<Ground>,
     /// `[knots]`, growing where the surface still intersects.
     self_weights: Vec<f32>,
-}
-
-/// What has been reached so far.
-struct Taken {
-    best: Option<Candidate>,
-    least: f64,
-    /// What mends most and breaks least, of all that break the promise.
-    broken: Option<Candidate>,
-    rounds: usize,
-}
-
-impl Taken {
-    /// Takes a candidate that keeps the promise and mends more than all before; says whether
-    /// another round is worth its while.
-    fn offer(&mut self, candidate: Candidate) -> bool {
-        if !candidate.worse.is_empty() {
-            let least = self.broken.as_ref().map_or(f64::MAX, price);
-            if price(&candidate) < least {
-                self.broken = Some(candidate);
-            }
-            return true;
-        }
-        let gained = self.least - candidate.faults;
-        if gained <= 0.0 {
-            return true;
-        }
-        let worthwhile = gained > WORTHWHILE * self.least;
-        self.least = candidate.faults;
-        self.best = Some(candidate);
-        worthwhile
-    }
-
-    /// What breaks the promise, and mends so much more that it matters.
-    fn better_but_broken(&mut self) -> Option<Candidate> {
-        let most = ((1.0 - BLENDED) * self.least).min(self.least - INVISIBLE);
-        self.broken.take_if(|broken| broken.faults < most)
-    }
-}
-
-/// Faults that are left, and more for a broken promise.
-fn price(broken: &Candidate) -> f64 {
-    let violation: f64 = broken.worse.iter().map(Worse::violation).sum();
-    broken.faults * (1.0 + violation)
 }
 
 impl<'a> Rounds<'a> {
@@ -140,12 +92,8 @@ impl<'a> Rounds<'a> {
         mut self,
         mut progress: impl FnMut(usize, &MotionScore),
     ) -> Result<Repaired, Error> {
-        let mut taken = Taken {
-            best: None,
-            least: faults(&self.knots.before, self.repairer.options.targets),
-            broken: None,
-            rounds: 0,
-        };
+        let targets = self.repairer.options.targets;
+        let mut taken = Taken::nothing(faults(&self.knots.before, targets));
         let progress = &mut progress;
         for bearing in BEARING {
             if taken.least < INVISIBLE {
@@ -165,11 +113,16 @@ impl<'a> Rounds<'a> {
             && let Some(best) = taken.best.take()
         {
             let best = whole.measure(best.change)?;
-            taken.least = f64::MAX;
+            taken.least = faults(&whole.before, targets);
             if best.worse.is_empty() {
                 taken.offer(best);
             } else {
-                held_back_by.extend_from_slice(&best.worse);
+                let known = |worse: &Worse| {
+                    let mut others = held_back_by.iter();
+                    others.any(|other: &Worse| other.measure == worse.measure)
+                };
+                let more = best.worse.iter().filter(|worse| !known(worse));
+                held_back_by.extend(more.cloned().collect::<Vec<_>>());
                 self.blend(whole, &best, &mut taken, progress)?;
             }
         }
@@ -185,11 +138,9 @@ impl<'a> Rounds<'a> {
         progress: &mut impl FnMut(usize, &MotionScore),
     ) -> Result<(), Error> {
         let options = self.repairer.options;
-        let source = &self.knots.source;
-        let rate = source.motion().frame_rate();
+        let rate = self.knots.source.motion().frame_rate();
         let mut guards = Guards::new(options);
-        let best = taken.best.as_ref().map(|best| best.change.clone());
-        let mut change = best.unwrap_or_else(|| vec![0.0; source.unknowns()]);
+        let mut change = taken.change(self.knots.source.unknowns());
         for _ in 0..options.rounds {
             let source = &self.knots.source;
             let frames = source.frame_count();
@@ -238,8 +189,7 @@ impl<'a> Rounds<'a> {
         progress: &mut impl FnMut(usize, &MotionScore),
     ) -> Result<(), Error> {
         let knots = self.knots.source.motion();
-        let best = taken.best.as_ref().map(|best| best.change.clone());
-        let base = best.unwrap_or_else(|| vec![0.0; broken.change.len()]);
+        let base = taken.change(broken.change.len());
         let mut blend = Blend::new(knots.seconds());
         let mut worse = broken.worse.clone();
         let mut after = broken.score.series.clone();
