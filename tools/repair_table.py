@@ -1,5 +1,5 @@
-"""Tables of repairs before and after: `repair_table.py FOLDER/repair.jsonl`, the record that
-`physique repair FILES... -o FOLDER` keeps."""
+"""Tables of repairs before and after: `repair_table.py FOLDER/repair.jsonl [--times]`, from the record
+that `physique repair FILES... -o FOLDER` keeps. Times mean something on a quiet machine only."""
 
 import json
 import statistics
@@ -37,6 +37,7 @@ def value(score, group, name):
 
 
 def main():
+    times = "--times" in sys.argv
     lines = [json.loads(line) for line in open(sys.argv[1], encoding="utf-8")][1:]
     motions = [motion for line in lines for motion in line["motions"] if motion["before"]]
     motions.sort(key=lambda motion: -motion["before"]["self_intersection"]["mean_cm3"])
@@ -59,8 +60,8 @@ def main():
 
     shown = [MEASURES[index] for index in CLIPS]
     print("\n| source | clip | s | " + " | ".join(title.replace(", mean", "") for title, *_ in shown)
-          + " | outcome | took, s |")
-    print("|---|---|--:|" + "--:|" * len(shown) + "---|--:|")
+          + " | outcome |" + (" took, s |" if times else ""))
+    print("|---|---|--:|" + "--:|" * len(shown) + "---|" + ("--:|" if times else ""))
     for motion in motions:
         cells = []
         for _, group, name, digits in shown:
@@ -69,11 +70,13 @@ def main():
                          f"{before:.{min(digits, 1)}f} → {after:.{min(digits, 1)}f}")
         print(f"| {source(motion['file'])} | `{motion['name']}` | {motion['before']['duration_s']:.1f} | "
               + " | ".join(cells)
-              + f" | {motion['outcome'].replace('-', ' ')} | {motion['took_s']:.1f} |")
+              + f" | {motion['outcome'].replace('-', ' ')} |"
+              + (f" {motion['took_s']:.1f} |" if times else ""))
 
     seconds = sum(motion["before"]["duration_s"] for motion in motions)
     took = sum(motion["took_s"] for motion in motions)
-    print(f"\n{len(motions)} clips, {seconds:.0f} s of motion, {took:.0f} s of work.")
+    print(f"\n{len(motions)} clips, {seconds:.0f} s of motion"
+          + (f", {took:.0f} s of work." if times else "."))
 
 
 main()
