@@ -384,9 +384,8 @@ fn what_gltf_cannot_hold_is_refused() {
         to_glb(&sound, &still(30.0, 0), "none"),
         Err(Error::NoFrames)
     ));
-    // The smallest steps of the rate underflow to equal times.
-    let crowded = to_glb(&sound, &still(1e46, 3), "crowded").unwrap_err();
-    assert!(crowded.to_string().contains("fall together"), "{crowded}");
+    // The fastest rate there is has times that 32 bits still tell apart.
+    assert!(to_glb(&sound, &still(FrameRate::FASTEST, 2_000), "fast").is_ok());
 }
 
 #[test]
