@@ -6,7 +6,7 @@ use std::path::Path;
 use half::f16;
 use physique_body::Joint;
 use physique_files::read_file;
-use safetensors::{Dtype, SafeTensors, tensor::TensorView};
+use safetensors::{Dtype, SafeTensorError, SafeTensors, tensor::TensorView};
 
 use super::{BLEND_WEIGHTS, CHOSEN, FORMAT, JOINTS, ProxyLimits, SPHERES, STATISTICS};
 use crate::regressor::{NetworkLayout, Parameter};
@@ -35,8 +35,13 @@ pub fn parse_proxy(file: &str, bytes: &[u8], limits: &ProxyLimits) -> Result<Sph
 
 fn parse(reader: &Reader<'_>, bytes: &[u8]) -> Result<SphereProxy, Error> {
     let (file, limits) = (reader.file, reader.limits);
-    let sound = |error: safetensors::SafeTensorError| {
-        reader.refuse("the whole file", "a .safetensors file", error.to_string())
+    let sound = |error: SafeTensorError| {
+        let found = match error {
+            // The array that the crate names is a different one every time.
+            SafeTensorError::InvalidOffset(_) => "arrays that overlap or leave gaps".to_owned(),
+            other => other.to_string(),
+        };
+        reader.refuse("the whole file", "a .safetensors file", found)
     };
     reader.check_header(bytes)?;
     let (_, header) = SafeTensors::read_metadata(bytes).map_err(sound)?;
