@@ -26,7 +26,7 @@ CLIPS = [0, 1, 2, 4, 6, 8, 10]
 
 def source(file):
     for part, name in [("salsa", "CMU salsa"), ("iclone", "CMU iClone"), ("Motiondataset-1", "Bandai 1"),
-                       ("Motiondataset-2", "Bandai 2"), ("100style", "100STYLE")]:
+                       ("Motiondataset-2", "Bandai 2"), ("100style", "100STYLE"), (".amc", "CMU recorded")]:
         if part in file:
             return name
     return Path(file).parent.name
