@@ -2,6 +2,7 @@
 
 pub(crate) mod arguments;
 mod build;
+mod join;
 mod show;
 mod table;
 
@@ -15,6 +16,7 @@ use arguments::DataVerb;
 pub(crate) fn run(verb: &DataVerb) -> Result<Exit> {
     match verb {
         DataVerb::Build(arguments) => build::run(arguments),
+        DataVerb::Join(arguments) => join::run(arguments),
         DataVerb::Show(arguments) => show::run(arguments),
         DataVerb::Recipe { name } => recipe(name.as_deref()),
     }

@@ -109,6 +109,16 @@ pub enum Error {
         /// Why the first one was left out.
         first: String,
     },
+    /// Data files that do not go together.
+    #[error("Joining data files, {what}: expected {expected}, found {found}.")]
+    Join {
+        /// What differs.
+        what: &'static str,
+        /// What the first file has.
+        expected: String,
+        /// What another one has.
+        found: String,
+    },
     /// Features that cannot be taken, stored or restored.
     #[error(transparent)]
     Motion(Box<physique::motion::Error>),

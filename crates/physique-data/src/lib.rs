@@ -7,6 +7,7 @@
 //! * [`build()`]: reads the folder, brings every clip to the 22 joints and to HumanML3D's skeleton,
 //!   lists what is broken with the reason, and writes the file. The same folder gives the same bytes,
 //!   for any number of threads.
+//! * [`join()`]: several data files as one.
 //! * [`Dataset`]: opens the file without reading it; windows of clips as features, in batches.
 //! * [`Sampler`]: which windows and captions a training step sees, a pure function of seed and step:
 //!   a run that was killed goes on as if nothing had happened.
@@ -20,6 +21,7 @@ mod dataset;
 mod error;
 mod file;
 mod index;
+mod join;
 mod limits;
 mod random;
 pub mod recipe;
@@ -35,6 +37,7 @@ pub use captions::{Caption, CaptionSet, Wording};
 pub use dataset::Dataset;
 pub use error::Error;
 pub use index::{Clip, Index, Recording, Storage};
+pub use join::{SET_LABEL, join};
 pub use limits::DataLimits;
 pub use recipe::Recipe;
 pub use report::{BuildReport, LeftOut, Reason};

@@ -25,8 +25,8 @@ pub struct SamplerOptions {
     pub order: Order,
     /// Lengths of windows are multiples of this many rows; the published data sets take 4.
     pub unit: usize,
-    /// Another seed draws others.
-    pub seed: u64,
+    /// Rows of the longest window; `None`, and more than the data set's longest: that one.
+    pub longest: Option<usize>,
 }
 
 impl Default for SamplerOptions {
@@ -35,7 +35,7 @@ impl Default for SamplerOptions {
             split: Split::Train,
             order: Order::Passes,
             unit: 4,
-            seed: 10,
+            longest: None,
         }
     }
 }
@@ -111,7 +111,9 @@ impl Sampler {
             captions: captions.collect(),
             caption_set: index.clips.iter().map(|clip| clip.captions).collect(),
             shortest: index.shortest_window,
-            longest: index.longest_window,
+            longest: options
+                .longest
+                .map_or(index.longest_window, |rows| rows.min(index.longest_window)),
             clips,
             options: SamplerOptions { unit, ..options },
         })
@@ -127,15 +129,15 @@ impl Sampler {
         ((self.clips.len() / batch.max(1)) as u64).max(1)
     }
 
-    /// What step `step` (from 0) sees, with `batch` windows.
-    pub fn draw(&self, step: u64, batch: usize) -> Vec<Drawn> {
+    /// What step `step` (from 0) of a run of this seed sees, with `batch` windows.
+    pub fn draw(&self, seed: u64, step: u64, batch: usize) -> Vec<Drawn> {
         let order = match self.options.order {
-            Order::Passes => self.pass(step / self.steps_a_pass(batch)),
+            Order::Passes => self.pass(seed, step / self.steps_a_pass(batch)),
             Order::BalancedBy(_) => Vec::new(),
         };
         let first = (step % self.steps_a_pass(batch)) as usize * batch;
         let draw = |place: usize| {
-            let mut random = Random::new(self.options.seed, &[step, place as u64]);
+            let mut random = Random::new(seed, &[step, place as u64]);
             let member = match order.is_empty() {
                 false => order[(first + place) % order.len()],
                 true => {
@@ -149,10 +151,10 @@ impl Sampler {
     }
 
     /// All clips in the order of a pass.
-    fn pass(&self, pass: u64) -> Vec<usize> {
+    fn pass(&self, seed: u64, pass: u64) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.clips.len()).collect();
         // Steps count from 0, so that no step has this stream.
-        Random::new(self.options.seed, &[u64::MAX, pass]).shuffle(&mut order);
+        Random::new(seed, &[u64::MAX, pass]).shuffle(&mut order);
         order
     }
 

@@ -13,6 +13,12 @@ pub enum Error {
     /// Features that are none.
     #[error(transparent)]
     Motion(Box<physique_motion::Error>),
+    /// The self-intersection loss could not be computed.
+    #[error(transparent)]
+    Proxy(Box<physique_proxy::Error>),
+    /// A data file that cannot be used.
+    #[error(transparent)]
+    Data(Box<physique_data::Error>),
     /// A file that is broken, or that holds more than data.
     #[error("{file}: {problem}")]
     Content {
@@ -102,6 +108,18 @@ pub enum Error {
 impl From<physique_motion::Error> for Error {
     fn from(error: physique_motion::Error) -> Self {
         Self::Motion(Box::new(error))
+    }
+}
+
+impl From<physique_data::Error> for Error {
+    fn from(error: physique_data::Error) -> Self {
+        Self::Data(Box::new(error))
+    }
+}
+
+impl From<physique_proxy::Error> for Error {
+    fn from(error: physique_proxy::Error) -> Self {
+        Self::Proxy(Box::new(error))
     }
 }
 

@@ -6,6 +6,7 @@
 //! | denoising diffusion: schedules, sampling, guidance, editing | [`diffusion`] |
 //! | the published evaluation: networks and metrics | [`evaluation`] |
 //! | encoded captions | [`text`] |
+//! | motions and captions of a data file | [`data`] |
 //! | the self-intersection loss as one operation in Burn's graph | [`motion_loss`] |
 //! | layers with PyTorch's parameter names | [`layers`] |
 //! | a network's numbers by name, strictly loaded | [`parameters`] |
@@ -17,6 +18,7 @@
 //! [`FeatureStatistics`](physique_motion::features::FeatureStatistics).
 
 pub mod checkpoint;
+pub mod data;
 pub mod diffusion;
 pub mod error;
 pub mod evaluation;

@@ -1,14 +1,17 @@
 //! Losses that are computed with their gradients outside of Burn, as one operation in its graph.
 //!
-//! [`MotionLoss`] is such a loss, and [`losses`] the operation.
+//! [`MotionLoss`] is such a loss, [`SelfIntersectionLoss`] the one of the paper, and [`losses`]
+//! the operation.
 
 mod operation;
+mod self_intersection;
 
 use std::fmt::Debug;
 
 use crate::Error;
 
 pub use operation::losses;
+pub use self_intersection::SelfIntersectionLoss;
 
 /// A loss of motions and its gradient.
 pub trait MotionLoss: Debug + Send + Sync {

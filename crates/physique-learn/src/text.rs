@@ -1,6 +1,12 @@
 //! Encoded captions: what networks are told to generate.
 
+mod centre;
+mod prompts;
+
 use physique_text::TextEmbeddings;
+
+pub use centre::CaptionCentre;
+pub use prompts::PromptEncoder;
 
 /// What a [`TextEncoder`](physique_text::TextEncoder) made of a batch of captions, or numbers in
 /// their place: `tokens` vectors of `width` numbers for each.

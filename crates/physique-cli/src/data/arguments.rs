@@ -9,6 +9,8 @@ pub(crate) enum DataVerb {
     /// Build a data file from a folder of motions: brings every clip to one skeleton, makes captions,
     /// splits by clip, and lists what is broken.
     Build(BuildArguments),
+    /// Put several data files into one, with statistics of all of them.
+    Join(JoinArguments),
     /// Tell what a data file holds.
     Show(ShowArguments),
     /// Print an embedded recipe to start an own one from, or list them.
@@ -27,6 +29,19 @@ pub(crate) struct BuildArguments {
     #[arg(value_name = "FOLDER")]
     pub(crate) folder: PathBuf,
     /// Where the data file goes (.pmd).
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// Print the report as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct JoinArguments {
+    /// The data files.
+    #[arg(value_name = "FILE", required = true)]
+    pub(crate) files: Vec<PathBuf>,
+    /// Where the joined data file goes (.pmd).
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
     /// Print the report as JSON.

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 use physique_data::recipe::embedded::EmbeddedRecipe;
-use physique_data::{BuildObserver, DataLimits, PublishedSet, Recipe, Source, build};
+use physique_data::{BuildObserver, BuildReport, DataLimits, PublishedSet, Recipe, Source, build};
 
 use super::arguments::BuildArguments;
 use super::table;
@@ -18,20 +18,20 @@ pub(crate) fn run(arguments: &BuildArguments) -> Result<Exit> {
     let report = build(&source, &arguments.folder, &arguments.output, &limits, &bar);
     bar.0.finish_and_clear();
     let report = report?;
-    if arguments.json {
-        println!("{}", serde_json::to_string_pretty(&report)?);
-    } else {
-        table::print(&report);
-        let bytes = std::fs::metadata(&arguments.output)
-            .with_context(|| arguments.output.display().to_string())?
-            .len();
-        println!(
-            "{}: {:.1} MB",
-            arguments.output.display(),
-            bytes as f64 / 1e6
-        );
-    }
+    tell(&report, &arguments.output, arguments.json)?;
     Ok(Exit::Done)
+}
+
+/// Prints the report of a file that was just written.
+pub(super) fn tell(report: &BuildReport, output: &Path, json: bool) -> Result<()> {
+    if json {
+        println!("{}", serde_json::to_string_pretty(report)?);
+        return Ok(());
+    }
+    table::print(report);
+    let file = std::fs::metadata(output).with_context(|| output.display().to_string())?;
+    println!("{}: {:.1} MB", output.display(), file.len() as f64 / 1e6);
+    Ok(())
 }
 
 /// The recipe of a file or a name.
