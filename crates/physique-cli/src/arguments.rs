@@ -13,6 +13,8 @@ use crate::proxy::arguments::ProxyVerb;
 use crate::repair::arguments::RepairArguments;
 use crate::scan::arguments::ScanArguments;
 use crate::score::arguments::ScoreArguments;
+#[cfg(feature = "learn")]
+use crate::train::arguments::TrainVerb;
 
 /// Human motion that a body could really perform: score it, look at it, repair it, convert it.
 #[derive(Debug, Parser)]
@@ -55,6 +57,10 @@ pub(crate) enum Verb {
     /// Motions with captions as one file to learn from.
     #[command(subcommand)]
     Data(DataVerb),
+    /// Train a network that generates motions.
+    #[cfg(feature = "learn")]
+    #[command(subcommand)]
+    Train(TrainVerb),
     /// Print a completion script for a shell.
     Completions {
         /// The shell.

@@ -9,6 +9,8 @@ mod demo;
 mod exclude;
 mod exit;
 mod files;
+#[cfg(feature = "learn")]
+mod generate;
 mod inspect;
 mod journal;
 mod names;
@@ -19,7 +21,11 @@ mod repair;
 mod scan;
 mod score;
 mod table;
+#[cfg(feature = "learn")]
+mod text_encoder;
 mod text_table;
+#[cfg(feature = "learn")]
+mod train;
 mod view;
 
 use std::process::ExitCode;
@@ -49,6 +55,8 @@ fn main() -> ExitCode {
         Verb::Demo(arguments) => demo::run(arguments),
         Verb::Proxy(verb) => proxy::run(verb),
         Verb::Data(verb) => data::run(verb),
+        #[cfg(feature = "learn")]
+        Verb::Train(verb) => train::run(verb),
         Verb::Completions { shell } => {
             let mut command = Arguments::command();
             clap_complete::generate(*shell, &mut command, "physique", &mut std::io::stdout());

@@ -3,7 +3,7 @@
 mod safetensors_file;
 mod torch;
 
-pub use safetensors_file::{read_safetensors, write_safetensors};
+pub use safetensors_file::{Precision, parse_safetensors, read_safetensors, write_safetensors};
 pub use torch::TorchCheckpoint;
 
 /// What a file of parameters may ask for.

@@ -16,6 +16,9 @@ pub enum Error {
     /// The self-intersection loss could not be computed.
     #[error(transparent)]
     Proxy(Box<physique_proxy::Error>),
+    /// A text encoder or its captions that cannot be used.
+    #[error(transparent)]
+    Text(Box<physique_text::Error>),
     /// A data file that cannot be used.
     #[error(transparent)]
     Data(Box<physique_data::Error>),
@@ -108,6 +111,12 @@ pub enum Error {
 impl From<physique_motion::Error> for Error {
     fn from(error: physique_motion::Error) -> Self {
         Self::Motion(Box::new(error))
+    }
+}
+
+impl From<physique_text::Error> for Error {
+    fn from(error: physique_text::Error) -> Self {
+        Self::Text(Box::new(error))
     }
 }
 

@@ -32,3 +32,8 @@ pub mod text;
 pub mod trainer;
 
 pub use error::Error;
+
+/// The device that networks run on: the processor.
+pub fn device() -> burn::tensor::Device {
+    burn::tensor::Device::flex()
+}

@@ -11,7 +11,9 @@ mod folder;
 mod generate;
 pub mod losses;
 mod network;
+mod plan;
 mod published;
+mod text_to_motion;
 mod time_embedding;
 mod training;
 
@@ -20,5 +22,7 @@ pub use config::{Architecture, ConditionKind, MdmConfig};
 pub use folder::{MdmDescription, MdmFolder};
 pub use generate::{GenerateRequest, generate};
 pub use network::{Mdm, MdmQuery};
+pub use plan::{MdmPlan, PLANS, WindowPlan};
 pub use published::{PublishedArguments, from_parameters, parameters_of, read_published};
+pub use text_to_motion::{Prompt, Sampling, TextToMotion};
 pub use training::{MdmTask, MdmTraining};

@@ -1,11 +1,13 @@
 //! Encoded captions: what networks are told to generate.
 
 mod centre;
+mod known;
 mod prompts;
 
 use physique_text::TextEmbeddings;
 
 pub use centre::CaptionCentre;
+pub use known::{KnownCaptions, NearestCaption};
 pub use prompts::PromptEncoder;
 
 /// What a [`TextEncoder`](physique_text::TextEncoder) made of a batch of captions, or numbers in

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use burn::tensor::{Device, Tensor, TensorData};
 use physique_files::npz::{Archive, ArrayLimits};
 use physique_learn::checkpoint::{
-    CheckpointLimits, TorchCheckpoint, read_safetensors, write_safetensors,
+    CheckpointLimits, Precision, TorchCheckpoint, read_safetensors, write_safetensors,
 };
 use physique_learn::layers::Dropout;
 use physique_learn::mdm::{
@@ -191,8 +191,10 @@ fn a_folder_of_ours_is_all_that_is_needed() {
     let written = MdmFolder {
         network: Mdm::new(&config, 4, &Device::flex()).expect("possible"),
         statistics: FeatureStatistics::new(skeleton, mean, deviation).expect("possible"),
+        captions: None,
         description: MdmDescription {
             frame_rate: 12.5,
+            longest_frames: Some(120),
             diffusion_steps: 50,
             signal: 0.09,
             text_encoder: "a test".into(),
@@ -201,7 +203,7 @@ fn a_folder_of_ours_is_all_that_is_needed() {
     };
     let root = tempfile::tempdir().expect("a folder");
     let folder = root.path().join("new/folder");
-    written.write(&folder).expect("written");
+    written.write(&folder, Precision::Single).expect("written");
     let limits = CheckpointLimits::default();
     let read = || MdmFolder::read(&folder, &limits, &Device::flex());
     let found = read().expect("just written");

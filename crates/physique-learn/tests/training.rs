@@ -77,6 +77,7 @@ fn config(steps: u64) -> TrainerConfig {
         clip: Some(1.0),
         average: Some(0.9),
         save_every: 3,
+        keep: None,
         log_every: 1,
     }
 }

@@ -55,6 +55,32 @@ impl CaptionIndex {
         })
     }
 
+    /// An index that was taken apart by [`Self::mean`] and [`Self::directions`].
+    ///
+    /// # Errors
+    /// [`Error::NoCaptions`] unless there is a row or more of as many numbers as the mean has.
+    pub fn from_parts(mean: Vec<f32>, directions: Vec<f32>) -> Result<Self, Error> {
+        let width = mean.len();
+        if width == 0 || directions.is_empty() || !directions.len().is_multiple_of(width) {
+            return Err(Error::NoCaptions);
+        }
+        Ok(Self {
+            mean,
+            directions,
+            width,
+        })
+    }
+
+    /// What is taken from every vector, `[width]`.
+    pub fn mean(&self) -> &[f32] {
+        &self.mean
+    }
+
+    /// `[captions][width]`: what is left of each caption, at length 1.
+    pub fn directions(&self) -> &[f32] {
+        &self.directions
+    }
+
     /// The nearest caption to each prompt; of equally near ones the first.
     pub fn nearest(&self, encoder: &dyn TextEncoder, prompts: &[&str]) -> Vec<Nearest> {
         let mut found = vectors(encoder, prompts);

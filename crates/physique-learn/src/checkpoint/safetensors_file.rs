@@ -11,7 +11,17 @@ use super::CheckpointLimits;
 use crate::Error;
 use crate::parameters::{ParameterArray, Parameters};
 
-/// Writes parameters and `words` about them, whole or not at all, as 32-bit numbers.
+/// How numbers are stored.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precision {
+    /// 32 bits: as they are.
+    #[default]
+    Single,
+    /// 16 bits: to three digits, in half the space.
+    Half,
+}
+
+/// Writes parameters and `words` about them, whole or not at all.
 ///
 /// # Errors
 /// [`Error::File`]; [`Error::Checkpoint`] where an array is not as long as its shape says.
@@ -19,22 +29,29 @@ pub fn write_safetensors(
     path: &Path,
     parameters: &Parameters,
     words: BTreeMap<String, String>,
+    precision: Precision,
 ) -> Result<(), Error> {
+    let kind = match precision {
+        Precision::Single => Dtype::F32,
+        Precision::Half => Dtype::F16,
+    };
     let arrays: Vec<_> = parameters
         .arrays
         .iter()
         .map(|(name, array)| {
-            let bytes: Vec<u8> = array
-                .values
-                .iter()
-                .flat_map(|value| value.to_le_bytes())
-                .collect();
+            let values = array.values.iter();
+            let bytes: Vec<u8> = match precision {
+                Precision::Single => values.flat_map(|value| value.to_le_bytes()).collect(),
+                Precision::Half => values
+                    .flat_map(|&value| half::f16::from_f32(value).to_le_bytes())
+                    .collect(),
+            };
             (name, &array.shape, bytes)
         })
         .collect();
     let mut views = Vec::with_capacity(arrays.len());
     for (name, shape, bytes) in &arrays {
-        let view = TensorView::new(Dtype::F32, shape.to_vec(), bytes);
+        let view = TensorView::new(kind, shape.to_vec(), bytes);
         views.push((*name, view.map_err(|problem| refuse(path, name, problem))?));
     }
     let words: HashMap<String, String> = words.into_iter().collect();
@@ -50,10 +67,25 @@ pub fn read_safetensors(
     path: &Path,
     limits: &CheckpointLimits,
 ) -> Result<(Parameters, BTreeMap<String, String>), Error> {
-    let file = physique_files::read_file(path, limits.bytes)?;
+    parse_safetensors(
+        &physique_files::read_file(path, limits.bytes)?,
+        path,
+        limits,
+    )
+}
+
+/// As [`read_safetensors`], of bytes that were read; the path only names them in errors.
+///
+/// # Errors
+/// [`Error::Checkpoint`].
+pub fn parse_safetensors(
+    file: &[u8],
+    path: &Path,
+    limits: &CheckpointLimits,
+) -> Result<(Parameters, BTreeMap<String, String>), Error> {
     let broken = |problem| refuse(path, "", problem);
-    let (_, header) = SafeTensors::read_metadata(&file).map_err(broken)?;
-    let tensors = SafeTensors::deserialize(&file).map_err(broken)?;
+    let (_, header) = SafeTensors::read_metadata(file).map_err(broken)?;
+    let tensors = SafeTensors::deserialize(file).map_err(broken)?;
     if tensors.len() > limits.arrays {
         let found = format!(
             "{} arrays, above the limit of {}",

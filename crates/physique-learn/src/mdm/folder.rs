@@ -13,13 +13,15 @@ use serde::{Deserialize, Serialize};
 use super::published::NAMES;
 use super::{Mdm, MdmConfig, parameters_of};
 use crate::Error;
-use crate::checkpoint::{CheckpointLimits, read_safetensors, write_safetensors};
+use crate::checkpoint::{CheckpointLimits, Precision, parse_safetensors, write_safetensors};
+use crate::text::KnownCaptions;
 
 const FORMAT: &str = "physique-mdm 1";
 const NETWORK: &str = "model.safetensors";
 const CONFIG: &str = "config.json";
 const MEAN: &str = "mean.npy";
 const DEVIATION: &str = "std.npy";
+const CAPTIONS: &str = "captions.safetensors";
 
 /// A network with what it takes to use it.
 #[derive(Clone, Debug)]
@@ -28,6 +30,8 @@ pub struct MdmFolder {
     pub network: Mdm,
     /// What its motions are normalised by.
     pub statistics: FeatureStatistics,
+    /// What it was told in training; `None` where that is not known, or nothing.
+    pub captions: Option<KnownCaptions>,
     /// What else there is to know.
     pub description: MdmDescription,
 }
@@ -38,6 +42,8 @@ pub struct MdmFolder {
 pub struct MdmDescription {
     /// Frames a second of its motions.
     pub frame_rate: f64,
+    /// Frames of the longest motion that it was trained with, if that is known.
+    pub longest_frames: Option<usize>,
     /// Steps of diffusion that it was trained with.
     pub diffusion_steps: usize,
     /// Factor of the schedule's signal-to-noise ratio, see
@@ -59,20 +65,23 @@ struct Config {
 }
 
 impl MdmFolder {
-    /// Writes `model.safetensors` under the published names, `config.json`, `mean.npy` and
-    /// `std.npy` into a folder, which is made. Each file is written whole or not at all, the
-    /// configuration last: a folder that has one is whole.
+    /// Writes `model.safetensors` under the published names, `config.json`, `mean.npy`, `std.npy`
+    /// and, where captions are known, `captions.safetensors` into a folder, which is made. Each file
+    /// is written whole or not at all, the configuration last: a folder that has one is whole.
     ///
     /// # Errors
     /// [`Error::File`].
-    pub fn write(&self, folder: &Path) -> Result<(), Error> {
+    pub fn write(&self, folder: &Path, precision: Precision) -> Result<(), Error> {
         std::fs::create_dir_all(folder).map_err(|problem| FileError::Io {
             path: folder.into(),
             problem,
         })?;
         let parameters = parameters_of(&self.network, "the network")?;
         let words = BTreeMap::from([("format".to_owned(), FORMAT.to_owned())]);
-        write_safetensors(&folder.join(NETWORK), &parameters, words)?;
+        write_safetensors(&folder.join(NETWORK), &parameters, words, precision)?;
+        if let Some(captions) = &self.captions {
+            captions.write(&folder.join(CAPTIONS))?;
+        }
         for (name, values) in [
             (MEAN, self.statistics.mean()),
             (DEVIATION, self.statistics.deviation()),
@@ -104,32 +113,68 @@ impl MdmFolder {
     /// [`Error::Parameters`] and [`Error::ParameterShape`] for numbers of another network;
     /// [`Error::Motion`] for statistics that are none; [`Error::Input`] for those of other features.
     pub fn read(folder: &Path, limits: &CheckpointLimits, device: &Device) -> Result<Self, Error> {
+        let file = |name: &str| match folder.join(name) {
+            path if name == CAPTIONS && !path.exists() => Ok(None),
+            path => Ok(Some(physique_files::read_file(&path, limits.bytes)?)),
+        };
+        Self::parse(folder, file, limits, device)
+    }
+
+    /// As [`MdmFolder::read`], of files that `file` gives by name; the folder only names them in
+    /// errors.
+    ///
+    /// # Errors
+    /// As [`MdmFolder::read`], and those of `file`.
+    pub fn parse(
+        folder: &Path,
+        file: impl Fn(&str) -> Result<Option<Vec<u8>>, Error>,
+        limits: &CheckpointLimits,
+        device: &Device,
+    ) -> Result<Self, Error> {
         let path = folder.join(CONFIG);
-        let text = physique_files::read_file(&path, 1 << 20)?;
         let refuse = |place: String, found: String| Error::Checkpoint {
             file: path.clone(),
             place,
             expected: format!("the configuration of a network, `{FORMAT}`"),
             found,
         };
+        let needed = |name: &str| match file(name)? {
+            Some(bytes) => Ok((folder.join(name), bytes)),
+            None => Err(refuse(format!("`{name}` beside it"), "no such file".into())),
+        };
+        let (_, text) = needed(CONFIG)?;
         let config: Config = serde_json::from_slice(&text)
             .map_err(|problem| refuse(format!("line {}", problem.line()), problem.to_string()))?;
         if config.format != FORMAT {
             return Err(refuse("`format`".into(), format!("{:?}", config.format)));
         }
-        let (parameters, _) = read_safetensors(&folder.join(NETWORK), limits)?;
+        let (path, bytes) = needed(NETWORK)?;
+        let (parameters, _) = parse_safetensors(&bytes, &path, limits)?;
         let network = Mdm::new(&config.network, 0, device)?;
         let network = parameters.load(network, "MDM", NAMES)?;
-        let (mean, deviation) = (folder.join(MEAN), folder.join(DEVIATION));
-        let statistics = FeatureStatistics::read(mean, deviation, &Limits::default())?;
+        let (mean, deviation) = (needed(MEAN)?, needed(DEVIATION)?);
+        let statistics = FeatureStatistics::parse(
+            (&mean.0, mean.1),
+            (&deviation.0, deviation.1),
+            &Limits::default(),
+        )?;
         if statistics.mean().len() != config.network.columns {
             let expected = format!("{} columns, as the network has", config.network.columns);
             let found = statistics.mean().len();
             return Err(Error::input("Statistics", expected, found));
         }
+        let captions = match file(CAPTIONS)? {
+            Some(bytes) => Some(KnownCaptions::parse(
+                &bytes,
+                &folder.join(CAPTIONS),
+                limits,
+            )?),
+            None => None,
+        };
         Ok(Self {
             network,
             statistics,
+            captions,
             description: config.description,
         })
     }

@@ -24,6 +24,8 @@ pub struct TrainerConfig {
     pub average: Option<f64>,
     /// Steps from one checkpoint to the next.
     pub save_every: u64,
+    /// Checkpoints that are kept, the newest ones; `None`: all.
+    pub keep: Option<usize>,
     /// Steps from one line of the log to the next.
     pub log_every: u64,
 }
@@ -72,6 +74,7 @@ impl Default for TrainerConfig {
             clip: None,
             average: None,
             save_every: 50_000,
+            keep: None,
             log_every: 1000,
         }
     }

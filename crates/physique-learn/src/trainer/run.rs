@@ -96,6 +96,11 @@ impl<T: Task> Trainer<T> {
         Ok(trainer)
     }
 
+    /// What is trained, and how.
+    pub const fn task(&self) -> &T {
+        &self.task
+    }
+
     /// Steps that are done.
     pub const fn steps_done(&self) -> u64 {
         self.optimiser.steps
@@ -195,7 +200,11 @@ impl<T: Task> Trainer<T> {
     pub fn save(&self) -> Result<(), Error> {
         let path = state::path(&self.folder, self.steps_done());
         let networks = (&self.network, self.average.as_ref());
-        state::write(&path, networks, &self.optimiser, &self.config)
+        state::write(&path, networks, &self.optimiser, &self.config)?;
+        match self.config.keep {
+            Some(count) => state::keep_newest(&self.folder, count),
+            None => Ok(()),
+        }
     }
 
     fn restore(&mut self, path: &Path) -> Result<(), Error> {

@@ -8,7 +8,7 @@ use burn::tensor::{Device, Tensor};
 
 use super::{AdamW, TrainerConfig};
 use crate::Error;
-use crate::checkpoint::{CheckpointLimits, read_safetensors, write_safetensors};
+use crate::checkpoint::{CheckpointLimits, Precision, read_safetensors, write_safetensors};
 use crate::parameters::{ParameterArray, Parameters};
 use crate::tensors::{numbers, tensor};
 
@@ -23,24 +23,37 @@ pub(super) fn path(folder: &Path, step: u64) -> PathBuf {
 
 /// The file of the last step in a folder, and the step.
 pub(super) fn newest(folder: &Path) -> Result<Option<(PathBuf, u64)>, Error> {
+    Ok(all(folder)?.pop().map(|(step, path)| (path, step)))
+}
+
+/// Removes all but the newest files.
+pub(super) fn keep_newest(folder: &Path, count: usize) -> Result<(), Error> {
+    let mut states = all(folder)?;
+    states.truncate(states.len().saturating_sub(count.max(1)));
+    for (_, path) in states {
+        let removed = std::fs::remove_file(&path);
+        removed.map_err(|problem| physique_files::FileError::Io { path, problem })?;
+    }
+    Ok(())
+}
+
+/// Steps and files in a folder, the newest last.
+fn all(folder: &Path) -> Result<Vec<(u64, PathBuf)>, Error> {
     let io = |problem| physique_files::FileError::Io {
         path: folder.into(),
         problem,
     };
-    let mut newest: Option<(PathBuf, u64)> = None;
+    let mut states = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(io)? {
         let path = entry.map_err(io)?.path();
         let step = path.file_name().and_then(|name| {
             let digits = name.to_str()?.strip_prefix("state-")?;
             digits.strip_suffix(".safetensors")?.parse().ok()
         });
-        if let Some(step) = step
-            && newest.as_ref().is_none_or(|(_, known)| step > *known)
-        {
-            newest = Some((path, step));
-        }
+        states.extend(step.map(|step| (step, path)));
     }
-    Ok(newest)
+    states.sort_unstable();
+    Ok(states)
 }
 
 /// Writes the state of a run, whole or not at all.
@@ -74,7 +87,7 @@ pub(super) fn write<N: Module>(
         ("step".to_owned(), optimiser.steps.to_string()),
         ("config".to_owned(), describe(config)),
     ]);
-    write_safetensors(path, &parameters, words)
+    write_safetensors(path, &parameters, words, Precision::Single)
 }
 
 /// What [`write`] wrote: network, average and optimiser. `networks` are of the same shape.
@@ -147,6 +160,7 @@ fn describe(config: &TrainerConfig) -> String {
         clip,
         average,
         save_every: _,
+        keep: _,
         log_every: _,
     } = config;
     let steps = match rate {

@@ -67,15 +67,30 @@ impl FeatureStatistics {
         deviation: impl AsRef<Path>,
         limits: &Limits,
     ) -> Result<Self, Error> {
-        let mean = numbers(mean.as_ref(), limits)?;
-        let values = numbers(deviation.as_ref(), limits)?;
+        let (mean, deviation) = (mean.as_ref(), deviation.as_ref());
+        let read = |path: &Path| read_file(path, limits.bytes);
+        Self::parse((mean, read(mean)?), (deviation, read(deviation)?), limits)
+    }
+
+    /// As [`Self::read`], of bytes that were read; paths only name them in errors.
+    ///
+    /// # Errors
+    /// As [`Self::read`], without [`Error::Io`].
+    pub fn parse(
+        mean: (&Path, Vec<u8>),
+        deviation: (&Path, Vec<u8>),
+        limits: &Limits,
+    ) -> Result<Self, Error> {
+        let place = deviation.0;
+        let mean = numbers(mean, limits)?;
+        let values = numbers(deviation, limits)?;
         let skeletons = FeatureSkeleton::ALL.into_iter();
         let skeleton = skeletons
             .filter(|skeleton| skeleton.feature_count() == mean.len())
             .find(|_| mean.len() == values.len());
         let Some(skeleton) = skeleton else {
             return Err(Error::Format {
-                path: deviation.as_ref().into(),
+                path: place.into(),
                 place: "the array".into(),
                 expected: "263 or 251 numbers, as many as of the mean".into(),
                 found: format!("{} of the mean, {} here", mean.len(), values.len()),
@@ -147,12 +162,11 @@ impl FeatureStatistics {
 }
 
 /// All numbers of a `.npy`.
-fn numbers(path: &Path, limits: &Limits) -> Result<Vec<f32>, Error> {
+fn numbers((path, bytes): (&Path, Vec<u8>), limits: &Limits) -> Result<Vec<f32>, Error> {
     let array_limits = ArrayLimits {
         bytes: limits.bytes,
         ..ArrayLimits::default()
     };
-    let bytes = read_file(path, limits.bytes)?;
     let array = Array::from_npy("array", bytes, &array_limits);
     let numbers = array.and_then(|array| array.to_f32());
     numbers.map_err(|problem| Error::Array {

@@ -1,0 +1,3 @@
+//! `physique generate`: motions from words.
+
+pub(crate) mod motion;

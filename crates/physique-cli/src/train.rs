@@ -1,0 +1,18 @@
+//! `physique train`: networks that generate motions.
+
+pub(crate) mod arguments;
+mod mdm;
+mod plan;
+mod samples;
+mod watch;
+
+use anyhow::Result;
+
+use crate::exit::Exit;
+use arguments::TrainVerb;
+
+pub(crate) fn run(verb: &TrainVerb) -> Result<Exit> {
+    match verb {
+        TrainVerb::Mdm(arguments) => mdm::run(arguments),
+    }
+}

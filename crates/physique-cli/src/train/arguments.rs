@@ -1,0 +1,69 @@
+//! Flags of `physique train`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum TrainVerb {
+    /// Train a motion diffusion model (MDM, Tevet et al. 2023) on a data file; a run that was
+    /// stopped or killed goes on where it was.
+    Mdm(Box<MdmArguments>),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MdmArguments {
+    /// Data file, of `physique data build`.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) data: PathBuf,
+    /// Folder of the run: checkpoints, log, samples, and the network in `model`.
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: PathBuf,
+    /// A plan: `published`, `fast`, `kit`, `small`, or a TOML file; a run that goes on has one.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) plan: Option<String>,
+    /// Text encoder: `minilm`, or a folder in the layout of Hugging Face (CLIP, DistilBERT, BERT);
+    /// `none` for a network that is told nothing.
+    #[arg(long, value_name = "NAME|FOLDER", default_value = "minilm")]
+    pub(crate) text: String,
+    /// Print the plan with all its settings as JSON, and train nothing.
+    #[arg(long)]
+    pub(crate) print_plan: bool,
+    #[command(flatten)]
+    pub(crate) change: ChangeArguments,
+    #[command(flatten)]
+    pub(crate) samples: SampleArguments,
+}
+
+/// What of a plan is changed.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Instead of the plan's")]
+pub(crate) struct ChangeArguments {
+    /// Steps of the optimiser.
+    #[arg(long, value_name = "N")]
+    pub(crate) steps: Option<u64>,
+    /// Motions a step.
+    #[arg(long, value_name = "N")]
+    pub(crate) batch: Option<usize>,
+    /// Learning rate.
+    #[arg(long, value_name = "RATE")]
+    pub(crate) rate: Option<f64>,
+    /// What all random numbers depend on.
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    /// Steps from one checkpoint to the next.
+    #[arg(long, value_name = "N")]
+    pub(crate) save_every: Option<u64>,
+}
+
+/// Motions that are generated while training.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Samples while training")]
+pub(crate) struct SampleArguments {
+    /// Checkpoints from one set of samples to the next; 0 for none.
+    #[arg(long, value_name = "N", default_value_t = 4)]
+    pub(crate) sample_every: u64,
+    /// A prompt to draw at each; may be given more than once [default: training captions].
+    #[arg(long = "prompt", value_name = "TEXT")]
+    pub(crate) prompts: Vec<String>,
+}

@@ -1,0 +1,169 @@
+//! A network with all that is needed to ask it for motions in words.
+
+use physique_motion::FrameRate;
+use physique_motion::features::MotionFeatures;
+use physique_text::TextEncoder;
+
+use super::{Condition, ConditionKind, GenerateRequest, MdmFolder, generate};
+use crate::Error;
+use crate::diffusion::{BatchEdit, Method, Sampler, Schedule};
+use crate::text::{NearestCaption, PromptEncoder};
+
+/// Asks a network for motions in words.
+#[derive(Debug)]
+pub struct TextToMotion {
+    folder: MdmFolder,
+    prompts: Option<PromptEncoder>,
+    schedule: Schedule,
+    frame_rate: FrameRate,
+}
+
+/// A motion to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prompt<'a> {
+    /// What it is to show; nothing in particular without words.
+    pub text: &'a str,
+    /// Frames.
+    pub frames: usize,
+    /// Another seed is another motion.
+    pub seed: u64,
+}
+
+/// How motions are sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    /// Scale of classifier-free guidance.
+    pub guidance: f64,
+    /// How a step is taken.
+    pub method: Method,
+    /// Steps of noise that are walked; `None`: all that the network was trained with.
+    pub steps: Option<usize>,
+}
+
+impl Default for Sampling {
+    /// MDM's: every step, drawn from the posterior, guidance 2.5.
+    fn default() -> Self {
+        Self {
+            guidance: 2.5,
+            method: Method::Ancestral,
+            steps: None,
+        }
+    }
+}
+
+impl TextToMotion {
+    /// A network and the encoder that it was trained with.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where the encoder is missing or gives other vectors than the network reads;
+    /// [`Error::Setting`] and [`Error::Motion`] for descriptions that cannot be.
+    pub fn new(folder: MdmFolder, encoder: Option<Box<dyn TextEncoder>>) -> Result<Self, Error> {
+        let schedule = Schedule::cosine(folder.description.diffusion_steps)?;
+        let schedule = schedule.with_signal(folder.description.signal)?;
+        let frame_rate = FrameRate::new(folder.description.frame_rate)?;
+        let kind = folder.network.config().condition;
+        let expected = match kind {
+            ConditionKind::Sentence { width } => Some((width, false)),
+            ConditionKind::Tokens { width } => Some((width, true)),
+            ConditionKind::Unconditioned | ConditionKind::Action { .. } => None,
+        };
+        let found = encoder
+            .as_ref()
+            .map(|encoder| (encoder.width(), encoder.is_by_token()));
+        if let Some((width, by_token)) = expected
+            && expected != found
+        {
+            let what = if by_token { "a token" } else { "a caption" };
+            let expected = format!("vectors of {width} numbers for {what}");
+            let found = match (&encoder, found) {
+                (Some(encoder), Some((width, _))) => format!("{width} by {}", encoder.name()),
+                _ => "none".into(),
+            };
+            return Err(Error::input("Text encoder", expected, found));
+        }
+        let centre = folder.captions.as_ref().and_then(|known| known.centre());
+        let prompts = encoder
+            .filter(|_| expected.is_some())
+            .map(|encoder| PromptEncoder::new(encoder, centre.cloned()))
+            .transpose()?;
+        Ok(Self {
+            folder,
+            prompts,
+            schedule,
+            frame_rate,
+        })
+    }
+
+    /// The network and what is known of it.
+    pub const fn folder(&self) -> &MdmFolder {
+        &self.folder
+    }
+
+    /// Frames a second of its motions.
+    pub const fn frame_rate(&self) -> FrameRate {
+        self.frame_rate
+    }
+
+    /// The training caption that is nearest to a prompt, where they are known.
+    pub fn nearest(&self, prompt: &str) -> Option<NearestCaption> {
+        let known = self.folder.captions.as_ref()?;
+        known.nearest(self.prompts.as_ref()?.encoder(), prompt)
+    }
+
+    /// Generates a motion for each prompt, as features that are not normalised. A motion depends on
+    /// its own text, frames and seed only, but for the frames of the longest of a batch where the
+    /// network sees padding.
+    ///
+    /// `observe` is told the number of steps that are left. Cost: two passes through the network a
+    /// step.
+    ///
+    /// # Errors
+    /// [`Error::Input`] without prompts, or for edits that do not fit; [`Error::Setting`] for steps
+    /// that the network does not have; [`Error::Motion`] for features that are not finite.
+    pub fn generate(
+        &self,
+        prompts: &[Prompt<'_>],
+        sampling: Sampling,
+        edit: Option<&BatchEdit>,
+        observe: impl FnMut(usize),
+    ) -> Result<Vec<MotionFeatures>, Error> {
+        let device = self.folder.network.device();
+        let condition = match (&self.prompts, self.folder.network.config().condition) {
+            (Some(encoder), _) => {
+                let texts: Vec<&str> = prompts.iter().map(|prompt| prompt.text).collect();
+                Condition::text(&encoder.encode(&texts)?, &device)?
+            }
+            (None, ConditionKind::Unconditioned) => Condition::Nothing,
+            (None, kind) => {
+                let expected = format!("{kind:?}");
+                return Err(Error::input("Prompts", expected, "words"));
+            }
+        };
+        let schedule = match sampling.steps {
+            None => self.schedule.clone(),
+            Some(steps) => self.schedule.respaced(steps)?,
+        };
+        let guidance = match self.prompts {
+            Some(_) => sampling.guidance,
+            None => 1.0,
+        };
+        let lengths: Vec<usize> = prompts.iter().map(|prompt| prompt.frames).collect();
+        let seeds: Vec<u64> = prompts.iter().map(|prompt| prompt.seed).collect();
+        let request = GenerateRequest {
+            condition: &condition,
+            lengths: &lengths,
+            seeds: &seeds,
+            guidance,
+            edit,
+        };
+        let sampler = Sampler::new(schedule, sampling.method);
+        let motions = generate(&self.folder.network, &sampler, request, observe)?;
+        let statistics = &self.folder.statistics;
+        let motions = motions.into_iter().map(|mut motion| {
+            statistics.denormalise(&mut motion);
+            let skeleton = statistics.skeleton();
+            Ok(MotionFeatures::new(self.frame_rate, skeleton, motion)?)
+        });
+        motions.collect()
+    }
+}
