@@ -8,6 +8,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::body_choice::BodyArguments;
 use crate::convert::arguments::ConvertArguments;
 use crate::data::arguments::DataVerb;
+#[cfg(feature = "learn")]
+use crate::generate::arguments::GenerateArguments;
 use crate::inspect::arguments::InspectArguments;
 use crate::proxy::arguments::ProxyVerb;
 use crate::repair::arguments::RepairArguments;
@@ -57,6 +59,9 @@ pub(crate) enum Verb {
     /// Motions with captions as one file to learn from.
     #[command(subcommand)]
     Data(DataVerb),
+    /// Generate motions from words.
+    #[cfg(feature = "learn")]
+    Generate(Box<GenerateArguments>),
     /// Train a network that generates motions.
     #[cfg(feature = "learn")]
     #[command(subcommand)]

@@ -1,3 +1,161 @@
 //! `physique generate`: motions from words.
 
+pub(crate) mod arguments;
+mod edit;
+mod model;
 pub(crate) mod motion;
+mod output;
+
+use std::time::Duration;
+
+use anyhow::{Context, Result, bail};
+use indicatif::{ProgressBar, ProgressStyle};
+use physique::motion::features::MotionFeatures;
+use physique::report::{MotionReport, ReportHead};
+use physique::{Report, ScoreOptions, Scorer};
+use physique_learn::diffusion::Method;
+use physique_learn::mdm::{KnownMotion, Prompt, Sampling, TextToMotion};
+
+use crate::exit::Exit;
+use crate::table::table;
+use arguments::{GenerateArguments, SamplingArguments};
+use output::Outputs;
+
+/// Motions that are sampled together: memory grows with them.
+const AT_ONCE: usize = 32;
+
+pub(crate) fn run(arguments: &GenerateArguments) -> Result<Exit> {
+    let texts = texts(arguments)?;
+    let outputs = Outputs::new(arguments, texts.len() * usize::from(arguments.count))?;
+    let network = model::open(&arguments.model, &arguments.read)?;
+    let scorer = Scorer::new(arguments.body.body()?, ScoreOptions::default())?;
+    let known = edit::read(&arguments.edit, &arguments.read, &network, scorer.body())?;
+    let frames = match &known {
+        Some(known) => known.features.frame_count(),
+        None => frames(arguments.seconds, &network)?,
+    };
+    for text in &texts {
+        tell_of_unusual(text, &network);
+    }
+    let mut prompts = Vec::new();
+    for text in &texts {
+        for _ in 0..arguments.count {
+            prompts.push(Prompt {
+                text,
+                frames,
+                seed: arguments.seed + prompts.len() as u64,
+            });
+        }
+    }
+    let motions = sample(&network, &prompts, arguments, known.as_ref())?;
+
+    let mut reports = Vec::new();
+    for (number, (features, prompt)) in motions.iter().zip(&prompts).enumerate() {
+        let loaded = motion::on_body(features, scorer.body())?;
+        let path = outputs.path(number, prompt.text);
+        let mut notes = outputs.write(&path, &loaded, prompt, scorer.body())?;
+        if arguments.png {
+            outputs.draw(&path, &loaded, prompt.text, &scorer)?;
+        }
+        notes.splice(0..0, loaded.notes);
+        let name = path
+            .file_name()
+            .map(|name| name.to_string_lossy().into_owned());
+        reports.push(MotionReport {
+            file: path.display().to_string(),
+            name: name.unwrap_or_default(),
+            text: Some(prompt.text.to_owned()),
+            score: Some(scorer.score(&loaded.motion)?),
+            unscorable: None,
+            mapping: None,
+            notes,
+        });
+    }
+    let report = Report {
+        head: ReportHead::new(scorer.options(), scorer.body()),
+        motions: reports,
+    };
+    if arguments.json {
+        println!("{}", serde_json::to_string_pretty(&report)?);
+    } else {
+        print!("{}", table(&report, None));
+        println!("{}", arguments.output.display());
+    }
+    Ok(Exit::Done)
+}
+
+/// The texts of the flags and of their file.
+fn texts(arguments: &GenerateArguments) -> Result<Vec<String>> {
+    let mut texts = arguments.texts.clone();
+    if let Some(path) = &arguments.prompts {
+        let lines = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
+        let lines = lines.lines().map(str::trim);
+        texts.extend(lines.filter(|line| !line.is_empty()).map(str::to_owned));
+    }
+    if texts.is_empty() {
+        bail!("expected a text to generate a motion of, found none");
+    }
+    Ok(texts)
+}
+
+fn frames(seconds: f64, network: &TextToMotion) -> Result<usize> {
+    if !(0.2..=600.0).contains(&seconds) {
+        bail!("--seconds: expected 0.2 to 600, found {seconds}");
+    }
+    let rate = network.frame_rate().per_second();
+    let frames = (seconds * rate).round().max(2.0) as usize;
+    if let Some(longest) = network.folder().description.longest_frames
+        && frames > longest
+    {
+        eprintln!(
+            "note: the network was trained with motions of up to {:.1} s; longer ones may come to a halt or repeat",
+            longest as f64 / rate
+        );
+    }
+    Ok(frames)
+}
+
+/// Says where a text is about something that the network was not trained with.
+fn tell_of_unusual(text: &str, network: &TextToMotion) {
+    if let Some(nearest) = network.nearest(text).filter(|nearest| nearest.unusual) {
+        eprintln!(
+            "note: {text:?} is unlike what the network was trained with (distance {:.2}); nearest is {:?}",
+            nearest.distance, nearest.text
+        );
+    }
+}
+
+fn sample(
+    network: &TextToMotion,
+    prompts: &[Prompt<'_>],
+    arguments: &GenerateArguments,
+    known: Option<&KnownMotion>,
+) -> Result<Vec<MotionFeatures>> {
+    let sampling = sampling(&arguments.sampling);
+    let default = network.folder().description.diffusion_steps;
+    let steps = sampling.steps.unwrap_or(default);
+    let bar = ProgressBar::new((prompts.len().div_ceil(AT_ONCE) * steps) as u64);
+    // A constant template; were it wrong, indicatif's own style would show.
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} steps (left: {eta})") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(200));
+    let mut motions = Vec::new();
+    for batch in prompts.chunks(AT_ONCE) {
+        let made = network.generate(batch, sampling, known, |_| bar.inc(1))?;
+        motions.extend(made);
+    }
+    bar.finish_and_clear();
+    Ok(motions)
+}
+
+fn sampling(arguments: &SamplingArguments) -> Sampling {
+    Sampling {
+        guidance: arguments.guidance,
+        method: match arguments.ddim {
+            Some(eta) => Method::Ddim { eta },
+            None => Method::Ancestral,
+        },
+        steps: arguments.steps,
+    }
+}

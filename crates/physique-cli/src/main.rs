@@ -56,6 +56,8 @@ fn main() -> ExitCode {
         Verb::Proxy(verb) => proxy::run(verb),
         Verb::Data(verb) => data::run(verb),
         #[cfg(feature = "learn")]
+        Verb::Generate(arguments) => generate::run(arguments),
+        #[cfg(feature = "learn")]
         Verb::Train(verb) => train::run(verb),
         Verb::Completions { shell } => {
             let mut command = Arguments::command();

@@ -24,5 +24,5 @@ pub use generate::{GenerateRequest, generate};
 pub use network::{Mdm, MdmQuery};
 pub use plan::{MdmPlan, PLANS, WindowPlan};
 pub use published::{PublishedArguments, from_parameters, parameters_of, read_published};
-pub use text_to_motion::{Prompt, Sampling, TextToMotion};
+pub use text_to_motion::{KnownMotion, Prompt, Sampling, TextToMotion};
 pub use training::{MdmTask, MdmTraining};

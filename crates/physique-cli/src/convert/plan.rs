@@ -90,7 +90,11 @@ impl Plan {
     }
 }
 
-fn format(output: &Path, to: Option<FormatName>, into_folder: bool) -> Result<ExportFormat> {
+pub(crate) fn format(
+    output: &Path,
+    to: Option<FormatName>,
+    into_folder: bool,
+) -> Result<ExportFormat> {
     let path = output;
     let output = path.display();
     if let Some(name) = to {

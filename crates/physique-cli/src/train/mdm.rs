@@ -24,8 +24,6 @@ use crate::text_encoder;
 
 /// Captions that are kept with a network, at most: enough to know what it was told.
 const KEPT_CAPTIONS: usize = 1024;
-/// Captions whose mean is taken, at most.
-const CENTRED_CAPTIONS: usize = 4096;
 
 pub(crate) fn run(arguments: &MdmArguments) -> Result<Exit> {
     let mut plan = plan::plan(arguments)?;
@@ -67,7 +65,7 @@ impl Told {
         let centre = match encoder.name() == "all-MiniLM-L6-v2" {
             true => {
                 eprintln!("note: reading the captions");
-                let captions = spread(&training, CENTRED_CAPTIONS);
+                let captions = spread(&training, KEPT_CAPTIONS);
                 Some(CaptionCentre::of(&Embeddings::from(
                     &encoder.encode(&captions),
                 ))?)

@@ -97,6 +97,14 @@ impl Edit {
         self
     }
 
+    /// The same with `frames` frames; nothing is kept of those that come in addition.
+    #[must_use]
+    pub fn padded(mut self, frames: usize) -> Self {
+        self.kept.resize(frames * self.columns, false);
+        self.frames = frames;
+        self
+    }
+
     /// `[frames][columns]`: which numbers are kept.
     pub fn kept(&self) -> &[bool] {
         &self.kept

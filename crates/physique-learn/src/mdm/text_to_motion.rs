@@ -1,12 +1,14 @@
 //! A network with all that is needed to ask it for motions in words.
 
+use burn::tensor::Device;
 use physique_motion::FrameRate;
 use physique_motion::features::MotionFeatures;
 use physique_text::TextEncoder;
 
 use super::{Condition, ConditionKind, GenerateRequest, MdmFolder, generate};
 use crate::Error;
-use crate::diffusion::{BatchEdit, Method, Sampler, Schedule};
+use crate::diffusion::{BatchEdit, Edit, Method, Sampler, Schedule};
+use crate::tensors::tensor;
 use crate::text::{NearestCaption, PromptEncoder};
 
 /// Asks a network for motions in words.
@@ -27,6 +29,15 @@ pub struct Prompt<'a> {
     pub frames: usize,
     /// Another seed is another motion.
     pub seed: u64,
+}
+
+/// A motion that parts are kept of.
+#[derive(Clone, Debug)]
+pub struct KnownMotion {
+    /// Its features, not normalised.
+    pub features: MotionFeatures,
+    /// What is kept of it: as many frames and columns.
+    pub edit: Edit,
 }
 
 /// How motions are sampled.
@@ -114,7 +125,8 @@ impl TextToMotion {
     /// its own text, frames and seed only, but for the frames of the longest of a batch where the
     /// network sees padding.
     ///
-    /// `observe` is told the number of steps that are left. Cost: two passes through the network a
+    /// Parts of a `known` motion are in all of them, which then have its frames. `observe` is told
+    /// the number of steps that are left. Cost: two passes through the network a
     /// step.
     ///
     /// # Errors
@@ -124,7 +136,7 @@ impl TextToMotion {
         &self,
         prompts: &[Prompt<'_>],
         sampling: Sampling,
-        edit: Option<&BatchEdit>,
+        known: Option<&KnownMotion>,
         observe: impl FnMut(usize),
     ) -> Result<Vec<MotionFeatures>, Error> {
         let device = self.folder.network.device();
@@ -149,12 +161,15 @@ impl TextToMotion {
         };
         let lengths: Vec<usize> = prompts.iter().map(|prompt| prompt.frames).collect();
         let seeds: Vec<u64> = prompts.iter().map(|prompt| prompt.seed).collect();
+        let edit = known
+            .map(|known| self.edit(known, &lengths, &device))
+            .transpose()?;
         let request = GenerateRequest {
             condition: &condition,
             lengths: &lengths,
             seeds: &seeds,
             guidance,
-            edit,
+            edit: edit.as_ref(),
         };
         let sampler = Sampler::new(schedule, sampling.method);
         let motions = generate(&self.folder.network, &sampler, request, observe)?;
@@ -165,5 +180,27 @@ impl TextToMotion {
             Ok(MotionFeatures::new(self.frame_rate, skeleton, motion)?)
         });
         motions.collect()
+    }
+    /// The edit of a batch, padded to whole tokens of the network.
+    fn edit(
+        &self,
+        known: &KnownMotion,
+        lengths: &[usize],
+        device: &Device,
+    ) -> Result<BatchEdit, Error> {
+        let frames = known.features.frame_count();
+        if let Some(length) = lengths.iter().find(|&&length| length != frames) {
+            let expected = format!("{frames} frames, as of the known motion");
+            return Err(Error::input("Motions", expected, length));
+        }
+        let config = self.folder.network.config();
+        let padded = frames.next_multiple_of(config.frames_per_token);
+        let mut features = known.features.values().to_vec();
+        self.folder.statistics.normalise(&mut features);
+        features.resize(padded * config.columns, 0.0);
+        let shape = [lengths.len(), padded, config.columns];
+        let features = tensor(features.repeat(lengths.len()), shape, device);
+        let edits = vec![known.edit.clone().padded(padded); lengths.len()];
+        Edit::of_batch(&edits, features)
     }
 }
