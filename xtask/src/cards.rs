@@ -57,6 +57,9 @@ fn asset_folders() -> Result<Vec<PathBuf>> {
     for krate in fs::read_dir(root().join("crates"))? {
         let assets = krate?.path().join("assets");
         if assets.is_dir() {
+            for entry in fs::read_dir(&assets)? {
+                folders.extend(Some(entry?.path()).filter(|path| path.is_dir()));
+            }
             folders.push(assets);
         }
     }

@@ -4,14 +4,12 @@ use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
 use physique_data::{Dataset, Sampler, SamplerOptions};
-use rayon::prelude::*;
 
 use crate::Error;
 use crate::text::{Embeddings, PromptEncoder};
 use crate::trainer::{BatchCondition, MotionBatch, MotionSource};
 
-/// Captions that are encoded at once, and whose vectors are kept at most, for encoders of whole
-/// captions.
+/// Captions whose vectors are kept at most.
 const KEPT_CAPTIONS: usize = 200_000;
 
 /// Windows of a data file with one of their captions each.
@@ -67,12 +65,11 @@ impl<'a> CaptionedMotions<'a> {
         new.sort_unstable();
         new.dedup();
         new.retain(|caption| !known.contains_key(caption));
-        let encoded: Vec<Result<Embeddings, Error>> = new
-            .par_iter()
-            .map(|&caption| prompts.encode(&[text(caption)]))
-            .collect();
-        for (caption, encoded) in new.into_iter().zip(encoded) {
-            known.insert(caption, encoded?.values);
+        let texts: Vec<&str> = new.iter().map(|&caption| text(caption)).collect();
+        let encoded = prompts.encode(&texts)?;
+        let vectors = encoded.values.chunks_exact(width.max(1));
+        for (caption, vector) in new.into_iter().zip(vectors) {
+            known.insert(caption, vector.to_vec());
         }
         let nothing = vec![0.0; width];
         let rows = captions.iter().map(|caption| {
