@@ -157,5 +157,6 @@ fn sampling(arguments: &SamplingArguments) -> Sampling {
             None => Method::Ancestral,
         },
         steps: arguments.steps,
+        guides: arguments.guide,
     }
 }

@@ -10,18 +10,23 @@
 //! | ancestral sampling and DDIM | [`Sampler`] |
 //! | what a sample's noise is | [`NoiseStreams`] |
 //! | classifier-free guidance | [`guide`] |
+//! | guidance by losses, of bodies, feet and ground | [`GuideWeights`] |
 //! | in-betweening, the upper body, any joints and frames | [`Edit`] |
 
+mod descent;
 mod edit;
 mod forward;
 mod guidance;
+mod guides;
 mod noise;
 mod sampler;
 mod schedule;
 
+pub(crate) use descent::descend;
 pub use edit::{BatchEdit, Edit};
 pub use forward::add_noise;
 pub use guidance::guide;
+pub use guides::GuideWeights;
 pub use noise::NoiseStreams;
 pub use sampler::{Method, Sampler};
 pub use schedule::{Posterior, Schedule};

@@ -22,6 +22,7 @@ pub mod data;
 pub mod diffusion;
 pub mod error;
 pub mod evaluation;
+mod fused;
 pub mod layers;
 pub mod mdm;
 pub mod motion_loss;

@@ -1,17 +1,29 @@
 //! Losses that are computed with their gradients outside of Burn, as one operation in its graph.
 //!
-//! [`MotionLoss`] is such a loss, [`SelfIntersectionLoss`] the one of the paper, and [`losses`]
-//! the operation.
+//! | what | where |
+//! |---|---|
+//! | a loss with its gradient | [`MotionLoss`] |
+//! | as an operation, and weighed | [`losses`], [`WeightedLoss`] |
+//! | bodies that pass through themselves | [`SelfIntersectionLoss`] |
+//! | feet in the ground or above it | [`GroundLoss`] |
+//! | feet that slide | [`SlidingLoss`] |
 
+mod ground;
+mod joints;
 mod operation;
 mod self_intersection;
+mod sliding;
+mod weighted;
 
 use std::fmt::Debug;
 
 use crate::Error;
 
+pub use ground::GroundLoss;
 pub use operation::losses;
 pub use self_intersection::SelfIntersectionLoss;
+pub use sliding::SlidingLoss;
+pub use weighted::WeightedLoss;
 
 /// A loss of motions and its gradient.
 pub trait MotionLoss: Debug + Send + Sync {
@@ -37,4 +49,15 @@ pub struct LossAndGradient {
     pub losses: Vec<f32>,
     /// As the motions.
     pub gradient: Vec<f32>,
+}
+
+/// Whether motions are `[lengths][frames][columns]` and none is longer than that or empty.
+fn check(motions: &[f32], frames: usize, lengths: &[usize], columns: usize) -> Result<(), Error> {
+    let fits = motions.len() == lengths.len() * frames * columns;
+    if fits && lengths.iter().all(|length| (1..=frames).contains(length)) {
+        return Ok(());
+    }
+    let expected = format!("{} of 1 to {frames} x {columns} numbers", lengths.len());
+    let found = format!("{} numbers, lengths {lengths:?}", motions.len());
+    Err(Error::input("Motions", expected, found))
 }

@@ -10,7 +10,8 @@ pub struct Random {
     state: u64,
 }
 
-const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
+/// How the state moves on with every number.
+pub(crate) const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
 
 impl Random {
     /// The stream of a path.
@@ -25,10 +26,12 @@ impl Random {
     /// 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.state = self.state.wrapping_add(STEP);
-        let mut z = self.state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
+        scramble(self.state)
+    }
+
+    /// The state that [`scramble`] makes the next number of, after one more [`STEP`].
+    pub(crate) const fn state(&self) -> u64 {
+        self.state
     }
 
     /// In [0, 1).
@@ -59,6 +62,15 @@ impl Random {
             items.swap(last, self.below(last + 1));
         }
     }
+}
+
+/// The random number of a state.
+#[inline(always)]
+pub(crate) const fn scramble(state: u64) -> u64 {
+    let mut z = state;
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
 }
 
 #[cfg(test)]

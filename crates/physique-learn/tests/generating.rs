@@ -40,6 +40,7 @@ fn motions(captions: &[&str], lengths: &[usize], seeds: &[u64], guidance: f64) -
         seeds,
         guidance,
         edit: None,
+        guides: &[],
     };
     let mut told = Vec::new();
     let motions = generate(&network(), &sampler(), request, |left| told.push(left));
@@ -82,6 +83,7 @@ fn what_is_known_stays() {
         seeds: &[1],
         guidance: 2.5,
         edit: Some(&batch),
+        guides: &[],
     };
     let motions = generate(&network(), &sampler(), request, |_| ()).expect("it fits");
     let kept = motions[0].iter().zip(edit.kept());
@@ -104,6 +106,7 @@ fn what_does_not_fit_is_refused() {
             seeds,
             guidance: 2.5,
             edit: None,
+            guides: &[],
         };
         let refused = generate(&network, &sampler, request, |_| ());
         refused.expect_err("it does not fit").to_string()

@@ -16,7 +16,7 @@ use physique_motion::features::{
 };
 use physique_motion::mapping::BodyRest;
 use physique_proxy::{
-    Backend, FeatureLoss, MeshLoss, MeshLossOptions, Pairs, PoseMatrices, SelfIntersection,
+    Backend, FeatureBatch, FeatureLoss, MeshLoss, MeshLossOptions, Pairs, PoseMatrices, SelfIntersection,
     SelfIntersectionOptions, SphereBody, explain, open_proxy,
 };
 
@@ -115,9 +115,17 @@ fn features_64_by_196(bencher: Bencher<'_, '_>, rule: &str) {
     };
     let loss = SelfIntersection::new(&CASE.0, &CASE.1).expect("sound");
     let layer = RotationLayer::published(FeatureSkeleton::HumanMl3d);
-    let loss = FeatureLoss::new(loss, layer, rule);
+    let loss = FeatureLoss::new(loss, &layer, rule);
     let motion = features(196);
-    let batch = vec![(motion, vec![1.0 / 196.0; 196]); 64];
+    let features = motion.values().repeat(64);
+    let batch = FeatureBatch {
+        skeleton: motion.skeleton(),
+        statistics: None,
+        features: &features,
+        frames: 196,
+        lengths: &[196; 64],
+        weights: &[1.0 / 196.0; 64 * 196],
+    };
     bencher
         .counter(ItemsCount::new(64_usize * 196))
         .bench_local(|| loss.batch(&batch).expect("finite"));

@@ -2,41 +2,43 @@
 
 use std::sync::Mutex;
 
-use crate::kernel::{ShapeSums, Tile, TileGradient, Workspace};
+use crate::Penalty;
+use crate::kernel::{Given, ShapeSums, Tile, TileGradient, Workspace};
 use crate::lanes::{Dispatch, MOST_LANES, Simd};
 use crate::plan::Plan;
-use crate::{Penalty, PoseMatrices};
 
-/// What to evaluate; slices are as long as `poses`.
+/// What to evaluate: a frame for each of `losses`.
 pub(crate) struct Request<'a> {
-    pub(crate) poses: &'a [PoseMatrices],
+    pub(crate) given: Given<'a>,
+    /// `[frames]` rows of [`Given::numbers`].
+    pub(crate) frames: &'a [f32],
     pub(crate) losses: &'a mut [f32],
     pub(crate) gradient: Option<TileGradient<'a>>,
 }
 
 impl<'a> Request<'a> {
     fn split_at(self, frames: usize) -> (Self, Self) {
-        let poses = self.poses.split_at(frames);
+        let given = self.given;
+        let numbers = frames * given.numbers();
+        let rows = self.frames.split_at(numbers);
         let losses = self.losses.split_at_mut(frames);
-        let gradients = self.gradient.map(|TileGradient { weights, by_poses }| {
+        let gradients = self.gradient.map(|TileGradient { weights, by_frames }| {
             let weights = weights.split_at(frames);
-            let by_poses = by_poses.split_at_mut(frames);
-            let gradient = |weights, by_poses| TileGradient { weights, by_poses };
+            let by_frames = by_frames.split_at_mut(numbers);
+            let gradient = |weights, by_frames| TileGradient { weights, by_frames };
             (
-                gradient(weights.0, by_poses.0),
-                gradient(weights.1, by_poses.1),
+                gradient(weights.0, by_frames.0),
+                gradient(weights.1, by_frames.1),
             )
         });
         let (early, late): (Option<TileGradient<'a>>, _) = gradients.unzip();
-        let part = |poses, losses, gradient| Self {
-            poses,
+        let part = |frames, losses, gradient| Self {
+            given,
+            frames,
             losses,
             gradient,
         };
-        (
-            part(poses.0, losses.0, early),
-            part(poses.1, losses.1, late),
-        )
+        (part(rows.0, losses.0, early), part(rows.1, losses.1, late))
     }
 }
 
@@ -101,7 +103,7 @@ impl<S: Simd> Fused<S> {
     /// Halves a request until it is small. Where it is cut depends on the number of frames only, and
     /// sums are taken along the cuts: they are the same for any number of threads.
     fn halves(&self, request: Request<'_>, frame: usize, shape: bool) -> Outcome {
-        let tiles = request.poses.len().div_ceil(S::COUNT);
+        let tiles = request.losses.len().div_ceil(S::COUNT);
         if tiles <= TILES {
             return self.tiles(request, frame, shape);
         }
@@ -125,8 +127,8 @@ impl<S: Simd> Fused<S> {
             shape: shape.then(|| ShapeSums::new(self.plan.sphere_count())),
         };
         let mut frame = first_frame;
-        while !request.poses.is_empty() {
-            let frames = S::COUNT.min(request.poses.len());
+        while !request.losses.is_empty() {
+            let frames = S::COUNT.min(request.losses.len());
             let (tile, rest) = request.split_at(frames);
             let bad = self.tile(&mut workspace, tile, outcome.shape.as_mut());
             let bad = bad.map(|lane| frame + lane);
@@ -153,18 +155,26 @@ impl<S: Simd> Fused<S> {
         shape: Option<&mut ShapeSums>,
     ) -> Option<usize> {
         let Request {
-            poses,
+            given,
+            frames,
             losses,
             gradient,
         } = request;
-        if poses.len() < S::COUNT {
-            return self.part_of_tile(workspace, poses, losses, gradient, shape);
+        if losses.len() < S::COUNT {
+            let request = Request {
+                given,
+                frames,
+                losses,
+                gradient,
+            };
+            return self.part_of_tile(workspace, request, shape);
         }
         let finite = self.simd.run(Tile {
             plan: &self.plan,
             penalty: self.penalty,
             workspace,
-            poses,
+            given,
+            frames,
             losses,
             gradient,
             shape,
@@ -179,36 +189,38 @@ impl<S: Simd> Fused<S> {
     fn part_of_tile(
         &self,
         workspace: &mut Workspace<S::Lanes>,
-        poses: &[PoseMatrices],
-        losses: &mut [f32],
-        gradient: Option<TileGradient<'_>>,
+        request: Request<'_>,
         shape: Option<&mut ShapeSums>,
     ) -> Option<usize> {
-        let frames = poses.len();
-        let mut full = std::mem::take(&mut workspace.poses);
-        let mut by_full = std::mem::take(&mut workspace.by_poses);
-        full[..frames].copy_from_slice(poses);
-        full[frames..].fill(*poses.last()?);
+        let (frames, numbers) = (request.losses.len(), request.given.numbers());
+        let mut full = std::mem::take(&mut workspace.frames);
+        let mut by_full = std::mem::take(&mut workspace.by_frames);
+        let (given, last) = (request.frames.len(), request.frames.len() - numbers);
+        full[..given].copy_from_slice(request.frames);
+        for frame in full[given..S::COUNT * numbers].chunks_exact_mut(numbers) {
+            frame.copy_from_slice(&request.frames[last..]);
+        }
         let mut full_losses = [0.0; MOST_LANES];
         let mut full_weights = [0.0; MOST_LANES];
-        if let Some(gradient) = &gradient {
+        if let Some(gradient) = &request.gradient {
             full_weights[..frames].copy_from_slice(gradient.weights);
         }
-        let request = Request {
-            poses: &full,
+        let full_request = Request {
+            given: request.given,
+            frames: &full[..S::COUNT * numbers],
             losses: &mut full_losses[..S::COUNT],
-            gradient: gradient.as_ref().map(|_| TileGradient {
+            gradient: request.gradient.as_ref().map(|_| TileGradient {
                 weights: &full_weights,
-                by_poses: &mut by_full,
+                by_frames: &mut by_full[..S::COUNT * numbers],
             }),
         };
-        let not_finite = self.tile(workspace, request, shape);
-        losses.copy_from_slice(&full_losses[..frames]);
-        if let Some(gradient) = gradient {
-            gradient.by_poses.copy_from_slice(&by_full[..frames]);
+        let not_finite = self.tile(workspace, full_request, shape);
+        request.losses.copy_from_slice(&full_losses[..frames]);
+        if let Some(gradient) = request.gradient {
+            gradient.by_frames.copy_from_slice(&by_full[..given]);
         }
-        workspace.poses = full;
-        workspace.by_poses = by_full;
+        workspace.frames = full;
+        workspace.by_frames = by_full;
         not_finite
     }
 }

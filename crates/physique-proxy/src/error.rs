@@ -52,8 +52,8 @@ pub enum Error {
         /// What was asked for.
         backend: crate::Backend,
     },
-    /// A rotation that is no number.
-    #[error("Frame {frame}: expected a finite rotation of {joint}, found NaN or infinity.")]
+    /// A rotation or position that is no number.
+    #[error("Frame {frame}: expected finite numbers for {joint}, found NaN or infinity.")]
     NotFinite {
         /// Index of the frame.
         frame: usize,
@@ -65,6 +65,14 @@ pub enum Error {
     Overflow {
         /// Index of the frame.
         frame: usize,
+    },
+    /// Features whose counts do not fit each other.
+    #[error("Features: expected {expected}, found {found}.")]
+    Batch {
+        /// What fits.
+        expected: String,
+        /// What was given.
+        found: String,
     },
     /// A height field that is none.
     #[error("Height field: expected {expected}, found {found}.")]

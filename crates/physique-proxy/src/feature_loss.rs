@@ -1,13 +1,18 @@
 //! The self-intersection loss of what networks generate: HumanML3D's and KIT's features.
 
-use glam::{DMat3, DVec3};
-use physique_motion::features::{
-    FeatureSkeleton, GradientRule, MotionFeatures, RotationLayer, recover_from_positions,
-    recover_from_positions_gradient, smpl_from_kit_gradient,
-};
-use rayon::prelude::*;
+mod joints;
 
-use crate::{Error, PoseMatrices, SelfIntersection};
+use physique_body::{Body, Joint, open_body};
+use physique_motion::features::{
+    FeatureSkeleton, FeatureStatistics, GradientRule, MotionFeatures, RotationLayer,
+};
+use physique_motion::mapping::BodyRest;
+
+use crate::kernel::Swings;
+use crate::{Error, SelfIntersection, open_proxy};
+
+/// Positions of one frame's 22 joints, in [`Joint`]'s order, of any unit of length.
+pub type JointFrame = [[f32; 3]; Joint::COUNT];
 
 /// The loss on features, through the paper's rotation layer: features to joint positions, positions
 /// to swings of 22 joints, swings to spheres.
@@ -16,41 +21,79 @@ use crate::{Error, PoseMatrices, SelfIntersection};
 /// ([`GradientRule::ParentsConstant`]); [`GradientRule::Full`] is the derivative of what is computed.
 /// Where the published quaternion formula is 0/0 (bones along their rest direction, a body that
 /// faces +Z exactly), value and gradient are finite here.
+///
+/// A body passes through itself wherever it stands and faces: its path is not recovered, and the
+/// columns of the root's velocity have no gradient. The layer is part of the fused kernel, in 32
+/// bits; [`RotationLayer`] is its reference. Cost: as [`SelfIntersection`], and a tenth more.
 #[derive(Debug)]
 pub struct FeatureLoss {
     loss: SelfIntersection,
-    layer: RotationLayer,
+    swings: Swings,
     rule: GradientRule,
 }
 
-/// A motion's losses, and the gradient of their weighted sum.
+/// Features of motions that are measured together.
+#[derive(Clone, Copy, Debug)]
+pub struct FeatureBatch<'a> {
+    /// Which features.
+    pub skeleton: FeatureSkeleton,
+    /// What they are normalised by; `None` where they are not.
+    pub statistics: Option<&'a FeatureStatistics>,
+    /// `[motions][frames][columns]`.
+    pub features: &'a [f32],
+    /// Frames of the longest motion, or more.
+    pub frames: usize,
+    /// Frames of each motion; what lies behind does not count, and may be anything.
+    pub lengths: &'a [usize],
+    /// What each frame's loss counts in the gradient, for all frames within motions, one motion
+    /// after the other.
+    pub weights: &'a [f32],
+}
+
+/// Losses of frames, and the gradient of their weighted sum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FeatureGradient {
-    /// `[frames]`.
+    /// Of all frames within motions, one motion after the other.
     pub losses: Vec<f32>,
-    /// `[frames][columns]`, flat as the features are; not normalised, as they are.
-    pub by_features: Vec<f64>,
+    /// By the features, in their shape.
+    pub by_features: Vec<f32>,
 }
 
 impl FeatureLoss {
     /// The loss of a body; `layer` must be for the skeleton of the features
-    /// ([`RotationLayer::published`]).
-    pub fn new(loss: SelfIntersection, layer: RotationLayer, rule: GradientRule) -> Self {
-        Self { loss, layer, rule }
+    /// ([`RotationLayer::published`]), or for the body ([`RotationLayer::for_body`]).
+    pub fn new(loss: SelfIntersection, layer: &RotationLayer, rule: GradientRule) -> Self {
+        let swings = Swings::new(layer, rule);
+        Self { loss, swings, rule }
     }
 
-    /// The loss of every frame.
+    /// The loss of the embedded open body in its mean shape: bones point where the features have
+    /// them, their lengths are the body's. No file needed.
     ///
     /// # Errors
-    /// [`Error::Motion`] for features whose positions overflow.
+    /// None in practice: the tests use it.
+    pub fn of_open_body(rule: GradientRule) -> Result<Self, Error> {
+        let body = Body::new(open_body()?, &[])?;
+        let proxy = open_proxy()?;
+        let loss = SelfIntersection::new(&proxy.of_body(&body)?, &proxy.pairs()?)?;
+        let layer = RotationLayer::for_body(&BodyRest::from(&body));
+        Ok(Self::new(loss, &layer, rule))
+    }
+
+    /// The loss of every frame of a motion.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] or [`Error::Overflow`] for features that are no numbers, or too large.
     pub fn losses(&self, motion: &MotionFeatures) -> Result<Vec<f32>, Error> {
-        let (_, poses) = self.poses(motion)?;
-        let mut losses = vec![0.0; poses.len()];
-        self.loss.losses(&poses, &mut losses)?;
+        let joints = batch_of(motion, &[motion.frame_count()], &[]).joints();
+        let mut losses = vec![0.0; joints.len()];
+        self.loss
+            .of_joints(&self.swings, &joints, &mut losses, None)?;
         Ok(losses)
     }
 
-    /// The loss of every frame and the gradient of `sum of weight * loss` by the features.
+    /// The loss of every frame of a motion, and the gradient of `sum of weight * loss` by its
+    /// features.
     ///
     /// # Errors
     /// As [`FeatureLoss::losses`], and [`Error::Length`] unless there is one weight a frame.
@@ -59,58 +102,42 @@ impl FeatureLoss {
         motion: &MotionFeatures,
         weights: &[f32],
     ) -> Result<FeatureGradient, Error> {
-        let (joints, poses) = self.poses(motion)?;
-        let mut losses = vec![0.0; poses.len()];
-        let mut by_poses = vec![[[0.0; 9]; 22]; poses.len()];
-        self.loss
-            .gradient(&poses, weights, &mut losses, &mut by_poses)?;
-        let mut by_positions = Vec::with_capacity(joints.len() * motion.skeleton().joint_count());
-        for (joints, by_pose) in joints.iter().zip(&by_poses) {
-            let by_rotations =
-                by_pose.map(|matrix| DMat3::from_cols_array(&matrix.map(f64::from)).transpose());
-            let by_joints = self.layer.gradient(joints, &by_rotations, self.rule);
-            match motion.skeleton() {
-                FeatureSkeleton::Kit => by_positions.extend(smpl_from_kit_gradient(&by_joints)),
-                FeatureSkeleton::HumanMl3d => by_positions.extend::<[DVec3; 22]>(by_joints),
-            }
-        }
-        Ok(FeatureGradient {
-            losses,
-            by_features: recover_from_positions_gradient(motion, &by_positions)?,
-        })
+        self.batch(&batch_of(motion, &[motion.frame_count()], weights))
     }
 
-    /// [`FeatureLoss::gradient`] of a whole batch, motions side by side on all threads.
+    /// The loss of every frame of motions, and the gradient of `sum of weight * loss` by their
+    /// features, on all threads.
     ///
     /// # Errors
-    /// Those of the first motion that has one.
-    pub fn batch(
-        &self,
-        batch: &[(MotionFeatures, Vec<f32>)],
-    ) -> Result<Vec<FeatureGradient>, Error> {
-        let gradients = batch
-            .par_iter()
-            .map(|(motion, weights)| self.gradient(motion, weights));
-        let gradients: Vec<_> = gradients.collect();
-        gradients.into_iter().collect()
+    /// As [`FeatureLoss::gradient`], frames counted through all motions; [`Error::Batch`] unless
+    /// counts fit each other and the skeleton.
+    pub fn batch(&self, batch: &FeatureBatch<'_>) -> Result<FeatureGradient, Error> {
+        batch.check()?;
+        let joints = batch.joints();
+        let mut losses = vec![0.0; joints.len()];
+        let mut by_joints = vec![[[0.0; 3]; Joint::COUNT]; joints.len()];
+        let gradient = Some((batch.weights, &mut by_joints[..]));
+        self.loss
+            .of_joints(&self.swings, &joints, &mut losses, gradient)?;
+        Ok(FeatureGradient {
+            losses,
+            by_features: batch.gradient(&by_joints, self.rule),
+        })
     }
+}
 
-    /// Joints in SMPL's order, and poses.
-    fn poses(
-        &self,
-        motion: &MotionFeatures,
-    ) -> Result<(Vec<[glam::Vec3; 22]>, Vec<PoseMatrices>), Error> {
-        let positions = recover_from_positions(motion)?.to_smpl_joints()?;
-        let joints = positions.positions().as_chunks().0.to_vec();
-        let pose = |joints: &[glam::Vec3; 22]| {
-            self.layer.rotations(joints).map(|rotation| {
-                rotation
-                    .transpose()
-                    .to_cols_array()
-                    .map(|number| number as f32)
-            })
-        };
-        let poses = joints.iter().map(pose).collect();
-        Ok((joints, poses))
+/// A batch of one motion.
+fn batch_of<'a>(
+    motion: &'a MotionFeatures,
+    lengths: &'a [usize; 1],
+    weights: &'a [f32],
+) -> FeatureBatch<'a> {
+    FeatureBatch {
+        skeleton: motion.skeleton(),
+        statistics: None,
+        features: motion.values(),
+        frames: motion.frame_count(),
+        lengths,
+        weights,
     }
 }

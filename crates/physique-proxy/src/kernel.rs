@@ -6,6 +6,8 @@
 //! gradient ◀─ transpose ── kinematics ◀── skinning ◀── by spheres ◀──┘
 //! ```
 //!
+//! Where joint positions are given instead of poses, [`swings`] stand between them and rotations.
+//!
 //! Every stage reads what the last one left in a [`Workspace`] that fits the second-level cache.
 
 mod bounds;
@@ -15,22 +17,51 @@ mod pairs;
 mod prefetch;
 mod shape;
 mod skinning;
+mod swings;
 mod transpose;
 mod workspace;
 
+use physique_body::Joint;
+
+use crate::Penalty;
 use crate::lanes::{Kernel, Lanes, Simd};
 use crate::plan::Plan;
-use crate::{Penalty, PoseMatrices};
 
 pub(crate) use shape::ShapeSums;
+pub(crate) use swings::Swings;
 pub(crate) use workspace::Workspace;
+
+/// What a frame is given by.
+#[derive(Clone, Copy)]
+pub(crate) enum Given<'a> {
+    /// Local rotations, [`crate::PoseMatrices`].
+    Rotations,
+    /// Joint positions, [`crate::feature_loss::JointFrame`], and how they become rotations.
+    Joints(&'a Swings),
+}
+
+/// Most numbers of a frame.
+const MOST_NUMBERS: usize = 9 * Joint::COUNT;
+
+impl Given<'_> {
+    /// Numbers of a frame.
+    #[inline(always)]
+    pub(crate) const fn numbers(self) -> usize {
+        match self {
+            Self::Rotations => MOST_NUMBERS,
+            Self::Joints(_) => 3 * Joint::COUNT,
+        }
+    }
+}
 
 /// One tile: exactly [`Simd::COUNT`] frames.
 pub(crate) struct Tile<'a, L> {
     pub(crate) plan: &'a Plan,
     pub(crate) penalty: Penalty,
     pub(crate) workspace: &'a mut Workspace<L>,
-    pub(crate) poses: &'a [PoseMatrices],
+    pub(crate) given: Given<'a>,
+    /// Rows of [`Given::numbers`].
+    pub(crate) frames: &'a [f32],
     pub(crate) losses: &'a mut [f32],
     pub(crate) gradient: Option<TileGradient<'a>>,
     /// Where the derivatives by the shape are added up; needs a gradient.
@@ -41,7 +72,8 @@ pub(crate) struct Tile<'a, L> {
 pub(crate) struct TileGradient<'a> {
     /// Upstream derivative by each frame's loss.
     pub(crate) weights: &'a [f32],
-    pub(crate) by_poses: &'a mut [PoseMatrices],
+    /// As the frames.
+    pub(crate) by_frames: &'a mut [f32],
 }
 
 impl<S: Simd> Kernel<S> for Tile<'_, S::Lanes> {
@@ -51,8 +83,17 @@ impl<S: Simd> Kernel<S> for Tile<'_, S::Lanes> {
     #[inline(always)]
     fn run(self, simd: S) -> bool {
         let (plan, work) = (self.plan, self.workspace);
-        let ahead = prefetch::Ahead::new(self.poses, self.gradient.as_ref());
-        let not_finite = transpose::load(simd, self.poses, &mut work.local);
+        let ahead = prefetch::Ahead::new(self.frames, self.gradient.as_ref());
+        let not_finite = match self.given {
+            Given::Rotations => {
+                transpose::load(simd, self.frames, work.local.as_flattened_mut())
+            }
+            Given::Joints(swings) => {
+                let not_finite =
+                    transpose::load(simd, self.frames, work.joints.as_flattened_mut());
+                not_finite + swings::forward(simd, swings, work)
+            }
+        };
         ahead.part(0);
         kinematics::forward(simd, plan, work);
         ahead.part(1);
@@ -82,7 +123,15 @@ impl<S: Simd> Kernel<S> for Tile<'_, S::Lanes> {
             } else {
                 kinematics::backward(simd, plan, work);
             }
-            transpose::store(simd, &work.local, gradient.by_poses);
+            match self.given {
+                Given::Rotations => {
+                    transpose::store(simd, work.local.as_flattened(), gradient.by_frames);
+                }
+                Given::Joints(swings) => {
+                    swings::backward(simd, swings, work);
+                    transpose::store(simd, work.joints.as_flattened(), gradient.by_frames);
+                }
+            }
         }
         self.losses[..S::COUNT].iter().all(|loss| loss.is_finite())
     }

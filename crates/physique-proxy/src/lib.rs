@@ -81,7 +81,7 @@ pub mod sphere_proxy;
 
 pub use error::Error;
 pub use explain::{PartOverlap, explain};
-pub use feature_loss::{FeatureGradient, FeatureLoss};
+pub use feature_loss::{FeatureBatch, FeatureGradient, FeatureLoss, JointFrame};
 pub use lanes::Backend;
 pub use mesh_loss::{MeshLoss, MeshLossOptions};
 pub use open_proxy::{open_proxy, open_proxy_with};

@@ -5,7 +5,8 @@ use std::fmt;
 use physique_body::Joint;
 
 use crate::engine::{Build, Engine, Request};
-use crate::kernel::{ShapeSums, TileGradient};
+use crate::feature_loss::JointFrame;
+use crate::kernel::{Given, ShapeSums, Swings, TileGradient};
 use crate::plan::Plan;
 use crate::shape_gradient::ShapeGradient;
 use crate::{Backend, Error, Pairs, Penalty, PoseMatrices, SphereBody};
@@ -104,7 +105,8 @@ impl SelfIntersection {
     pub fn losses(&self, poses: &[PoseMatrices], losses: &mut [f32]) -> Result<(), Error> {
         check_length("Losses", poses, losses.len())?;
         let request = Request {
-            poses,
+            given: Given::Rotations,
+            frames: poses.as_flattened().as_flattened(),
             losses,
             gradient: None,
         };
@@ -146,6 +148,36 @@ impl SelfIntersection {
         Ok(ShapeGradient::new(&self.engine.plan().order, sums.as_ref()))
     }
 
+    /// The loss of every frame of joints, and where `gradient` is given, as many weights and the
+    /// gradient of their sum by the joints.
+    ///
+    /// # Errors
+    /// As [`SelfIntersection::losses`].
+    pub(crate) fn of_joints(
+        &self,
+        swings: &Swings,
+        joints: &[JointFrame],
+        losses: &mut [f32],
+        gradient: Option<(&[f32], &mut [JointFrame])>,
+    ) -> Result<(), Error> {
+        check_length("Losses", joints, losses.len())?;
+        if let Some((weights, by_joints)) = &gradient {
+            check_length("Weights", joints, weights.len())?;
+            check_length("Gradient", joints, by_joints.len())?;
+        }
+        let gradient = gradient.map(|(weights, by_joints)| TileGradient {
+            weights,
+            by_frames: by_joints.as_flattened_mut().as_flattened_mut(),
+        });
+        let request = Request {
+            given: Given::Joints(swings),
+            frames: joints.as_flattened().as_flattened(),
+            losses,
+            gradient,
+        };
+        refuse(joints, self.engine.evaluate(request, false).not_finite)
+    }
+
     /// Losses and gradient; with `shape`, also the sums of the gradient by the shape.
     fn evaluate(
         &self,
@@ -158,10 +190,12 @@ impl SelfIntersection {
         check_length("Losses", poses, losses.len())?;
         check_length("Weights", poses, weights.len())?;
         check_length("Gradient", poses, by_poses.len())?;
+        let by_frames = by_poses.as_flattened_mut().as_flattened_mut();
         let request = Request {
-            poses,
+            given: Given::Rotations,
+            frames: poses.as_flattened().as_flattened(),
             losses,
-            gradient: Some(TileGradient { weights, by_poses }),
+            gradient: Some(TileGradient { weights, by_frames }),
         };
         let outcome = self.engine.evaluate(request, shape);
         refuse(poses, outcome.not_finite)?;
@@ -180,28 +214,31 @@ impl fmt::Debug for SelfIntersection {
 }
 
 /// One element a frame.
-pub(crate) fn check_length(
+pub(crate) fn check_length<T>(
     what: &'static str,
-    poses: &[PoseMatrices],
+    frames: &[T],
     found: usize,
 ) -> Result<(), Error> {
-    if found == poses.len() {
+    if found == frames.len() {
         return Ok(());
     }
     Err(Error::Length {
         what,
-        expected: poses.len(),
+        expected: frames.len(),
         found,
     })
 }
 
 /// Names the frame whose loss is not finite, and the joint where that began.
-pub(crate) fn refuse(poses: &[PoseMatrices], frame: Option<usize>) -> Result<(), Error> {
+pub(crate) fn refuse<const N: usize>(
+    frames: &[[[f32; N]; Joint::COUNT]],
+    frame: Option<usize>,
+) -> Result<(), Error> {
     let Some(frame) = frame else {
         return Ok(());
     };
-    let finite = |matrix: &[f32; 9]| matrix.iter().all(|number| number.is_finite());
-    let joint = poses[frame].iter().position(|matrix| !finite(matrix));
+    let finite = |numbers: &[f32; N]| numbers.iter().all(|number| number.is_finite());
+    let joint = frames[frame].iter().position(|numbers| !finite(numbers));
     Err(match joint.and_then(Joint::from_index) {
         Some(joint) => Error::NotFinite { frame, joint },
         None => Error::Overflow { frame },

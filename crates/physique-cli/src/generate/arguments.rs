@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use physique_learn::diffusion::GuideWeights;
 
 use crate::arguments::ReadArguments;
 use crate::body_choice::BodyArguments;
@@ -76,6 +77,10 @@ pub(crate) struct SamplingArguments {
     /// Sample by DDIM with this share of the noise (0: none) instead of from the posterior.
     #[arg(long, value_name = "ETA", num_args = 0..=1, default_missing_value = "0")]
     pub(crate) ddim: Option<f64>,
+    /// Losses that motions are moved against while they are made, on any network: NAME=WEIGHT of
+    /// `self`, `ground` and `feet`, 1 for a full step; such as `self=1,feet=1`.
+    #[arg(long, value_name = "NAME=WEIGHT,...", default_value = "", hide_default_value = true)]
+    pub(crate) guide: GuideWeights,
 }
 
 /// Parts of another motion that stay.

@@ -150,6 +150,11 @@ pub struct BatchEdit {
 }
 
 impl BatchEdit {
+    /// `[batch][frames][columns]`: 1 where numbers are made, 0 where they are known.
+    pub(super) fn made(&self) -> Tensor<3> {
+        self.made.clone()
+    }
+
     /// A prediction with the known numbers in their places.
     pub fn apply(&self, clean: Tensor<3>) -> Tensor<3> {
         clean * self.made.clone() + self.known.clone()

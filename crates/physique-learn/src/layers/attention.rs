@@ -1,11 +1,14 @@
 //! `torch.nn.MultiheadAttention`.
 
+use std::sync::Arc;
+
 use burn::module::{Module, Param};
 use burn::tensor::activation::softmax;
-use burn::tensor::module::linear;
 use burn::tensor::{Bool, Tensor};
 
+use super::linear::linear_rows;
 use super::{Dropout, Initialiser, Linear};
+use crate::fused;
 
 /// softmax(Q K^T / sqrt(d)) V by heads. Vaswani et al., "Attention Is All You Need", 2017,
 /// section 3.2.
@@ -40,11 +43,12 @@ impl MultiHeadAttention {
         padding: Option<&Tensor<2, Bool>>,
         dropout: &Dropout,
     ) -> Tensor<3> {
-        let projected = linear(
-            x,
-            self.in_proj_weight.val().transpose(),
-            Some(self.in_proj_bias.val()),
-        );
+        let projected = linear_rows(x, self.in_proj_weight.val(), self.in_proj_bias.val());
+        if fused::is_supported(&projected.device()) {
+            let hidden = padding.map(hidden_frames);
+            let mixed = fused::attention(projected, self.heads, hidden, dropout.mask());
+            return self.out_proj.forward(mixed);
+        }
         let [queries, keys, values] = self.heads_of(projected);
         self.attend(queries, keys, values, padding, dropout)
     }
@@ -62,7 +66,7 @@ impl MultiHeadAttention {
         let project = |x: Tensor<3>, start: usize, length: usize| {
             let weight = self.in_proj_weight.val().narrow(0, start, length);
             let bias = self.in_proj_bias.val().narrow(0, start, length);
-            linear(x, weight.transpose(), Some(bias))
+            linear_rows(x, weight, bias)
         };
         let [queries] = self.heads_of(project(x, 0, width));
         let [keys, values] = self.heads_of(project(memory, width, 2 * width));
@@ -101,4 +105,9 @@ impl MultiHeadAttention {
         self.out_proj
             .forward(mixed.reshape([batch, frames, heads * width]))
     }
+}
+
+/// Where nobody looks, as plain numbers.
+fn hidden_frames(padding: &Tensor<2, Bool>) -> Arc<[bool]> {
+    padding.to_data().iter::<bool>().collect()
 }

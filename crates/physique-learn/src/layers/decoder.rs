@@ -1,7 +1,6 @@
 //! `torch.nn.TransformerDecoder`.
 
 use burn::module::Module;
-use burn::tensor::activation::gelu;
 use burn::tensor::{Bool, Tensor};
 
 use super::{Dropout, Initialiser, LayerNorm, LayerSizes, Linear, MultiHeadAttention};
@@ -56,15 +55,14 @@ impl DecoderLayer {
         dropout: &Dropout,
     ) -> Tensor<3> {
         let among = self.self_attn.to_itself(x.clone(), padding, dropout);
-        let x = self.norm1.forward(x + dropout.apply(among));
+        let x = self.norm1.forward(dropout.add(x, among));
         let (tokens, hidden) = (memory.tokens.clone(), memory.padding.as_ref());
         let looked_up = self
             .multihead_attn
             .to_memory(x.clone(), tokens, hidden, dropout);
-        let x = self.norm2.forward(x + dropout.apply(looked_up));
-        let inner = dropout.apply(gelu(self.linear1.forward(x.clone())));
-        let fed = dropout.apply(self.linear2.forward(inner));
-        self.norm3.forward(x + fed)
+        let x = self.norm2.forward(dropout.add(x, looked_up));
+        let inner = dropout.gelu(self.linear1.forward(x.clone()));
+        self.norm3.forward(dropout.add(x, self.linear2.forward(inner)))
     }
 }
 

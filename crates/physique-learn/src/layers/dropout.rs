@@ -2,8 +2,10 @@
 
 use std::cell::Cell;
 
+use burn::tensor::activation::gelu;
 use burn::tensor::{Tensor, TensorData};
 
+use crate::fused::{self, DropMask};
 use crate::random::Random;
 
 /// Told apart from all other uses of a seed.
@@ -51,16 +53,51 @@ impl Dropout {
         if self.dropped == 0 {
             return values;
         }
+        let random = self.draw();
+        if fused::is_supported(&values.device()) {
+            return fused::dropped(values, DropMask::new(self.dropped, &random));
+        }
+        self.multiply(values, random)
+    }
+
+    /// `values + dropout(other)`.
+    pub(super) fn add<const D: usize>(&self, values: Tensor<D>, other: Tensor<D>) -> Tensor<D> {
+        if self.dropped == 0 || !fused::is_supported(&values.device()) {
+            return values + self.apply(other);
+        }
+        fused::add_dropped(values, other, DropMask::new(self.dropped, &self.draw()))
+    }
+
+    /// `dropout(GELU(values))`, the exact GELU.
+    pub(super) fn gelu<const D: usize>(&self, values: Tensor<D>) -> Tensor<D> {
+        if !fused::is_supported(&values.device()) {
+            return self.apply(gelu(values));
+        }
+        fused::dropped_gelu(values, self.mask())
+    }
+
+    /// The next mask, where anything is dropped.
+    pub(super) fn mask(&self) -> Option<DropMask> {
+        let draw = || DropMask::new(self.dropped, &self.draw());
+        (self.dropped > 0).then(draw)
+    }
+
+    /// The stream of the next mask.
+    fn draw(&self) -> Random {
+        let call = self.drawn.replace(self.drawn.get() + 1);
+        Random::new(&[self.seed, PURPOSE, self.step, call])
+    }
+
+    /// The same by elementary operations, for any device.
+    fn multiply<const D: usize>(&self, values: Tensor<D>, random: Random) -> Tensor<D> {
         let shape = values.dims();
-        let mask = TensorData::new(self.mask(shape.iter().product()), shape);
-        let mask = Tensor::<D>::from_data(mask, &values.device());
-        values * mask
+        let factors = self.factors(shape.iter().product(), random);
+        let factors = Tensor::<D>::from_data(TensorData::new(factors, shape), &values.device());
+        values * factors
     }
 
     /// Factors: 0, or what keeps the mean.
-    fn mask(&self, count: usize) -> Vec<f32> {
-        let call = self.drawn.replace(self.drawn.get() + 1);
-        let mut random = Random::new(&[self.seed, PURPOSE, self.step, call]);
+    fn factors(&self, count: usize, mut random: Random) -> Vec<f32> {
         let kept = 65_536.0 / (65_536.0 - f32::from(self.dropped));
         let mut mask = Vec::with_capacity(count.next_multiple_of(4));
         while mask.len() < count {
@@ -77,12 +114,18 @@ impl Dropout {
 
 #[cfg(test)]
 mod tests {
+    use burn::tensor::{Device, Tensor};
+
     use super::Dropout;
+
+    fn factors(dropout: &Dropout, count: usize) -> Vec<f32> {
+        dropout.factors(count, dropout.draw())
+    }
 
     #[test]
     fn drops_its_share_and_keeps_the_mean() {
         let dropout = Dropout::training(0.1, 5, 0);
-        let mask = dropout.mask(100_001);
+        let mask = factors(&dropout, 100_001);
         let dropped = mask.iter().filter(|&&factor| factor == 0.0).count() as f64;
         let mean = mask.iter().map(|&factor| f64::from(factor)).sum::<f64>() / 100_001.0;
         // Five standard deviations.
@@ -92,11 +135,22 @@ mod tests {
 
     #[test]
     fn masks_depend_on_seed_step_and_call() {
-        let first = |seed, step| Dropout::training(0.5, seed, step).mask(64);
+        let first = |seed, step| factors(&Dropout::training(0.5, seed, step), 64);
         assert_eq!(first(1, 2), first(1, 2));
         assert_ne!(first(1, 2), first(1, 3));
         assert_ne!(first(1, 2), first(2, 2));
         let dropout = Dropout::training(0.5, 1, 2);
-        assert_ne!(dropout.mask(64), dropout.mask(64));
+        assert_ne!(factors(&dropout, 64), factors(&dropout, 64));
+    }
+
+    /// Whatever the device, the same numbers are dropped: more than a thread takes at once, and no
+    /// whole number of draws.
+    #[test]
+    fn fused_masks_are_the_same() {
+        const COUNT: usize = (1 << 14) + 4 * 33 + 3;
+        let ones = Tensor::<1>::ones([COUNT], &Device::flex());
+        let found = Dropout::training(0.3, 7, 1).apply(ones);
+        let found = found.into_data().try_into_vec::<f32>().expect("floats");
+        assert_eq!(found, factors(&Dropout::training(0.3, 7, 1), COUNT));
     }
 }

@@ -1,7 +1,6 @@
 //! `torch.nn.TransformerEncoder`.
 
 use burn::module::Module;
-use burn::tensor::activation::gelu;
 use burn::tensor::{Bool, Tensor};
 
 use super::{Dropout, Initialiser, LayerNorm, Linear, MultiHeadAttention};
@@ -63,19 +62,16 @@ impl EncoderLayer {
         padding: Option<&Tensor<2, Bool>>,
         dropout: &Dropout,
     ) -> Tensor<3> {
-        let attend = |x| dropout.apply(self.self_attn.to_itself(x, padding, dropout));
-        let feed = |x| {
-            let inner = dropout.apply(gelu(self.linear1.forward(x)));
-            dropout.apply(self.linear2.forward(inner))
-        };
+        let attend = |x| self.self_attn.to_itself(x, padding, dropout);
+        let feed = |x| self.linear2.forward(dropout.gelu(self.linear1.forward(x)));
         match place {
             NormPlace::Post => {
-                let x = self.norm1.forward(x.clone() + attend(x));
-                self.norm2.forward(x.clone() + feed(x))
+                let x = self.norm1.forward(dropout.add(x.clone(), attend(x)));
+                self.norm2.forward(dropout.add(x.clone(), feed(x)))
             }
             NormPlace::Pre => {
-                let x = x.clone() + attend(self.norm1.forward(x));
-                x.clone() + feed(self.norm2.forward(x))
+                let x = dropout.add(x.clone(), attend(self.norm1.forward(x)));
+                dropout.add(x.clone(), feed(self.norm2.forward(x)))
             }
         }
     }

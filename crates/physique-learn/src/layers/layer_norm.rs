@@ -4,6 +4,7 @@ use burn::module::{Module, Param};
 use burn::tensor::{Tensor, module::layer_norm};
 
 use super::Initialiser;
+use crate::fused;
 
 /// What PyTorch adds to the variance.
 const EPSILON: f64 = 1e-5;
@@ -30,6 +31,10 @@ impl LayerNorm {
 
     /// `[..][width]` to the same shape.
     pub fn forward<const D: usize>(&self, x: Tensor<D>) -> Tensor<D> {
-        layer_norm(x, self.weight.val(), Some(self.bias.val()), EPSILON)
+        let (scale, offset) = (self.weight.val(), self.bias.val());
+        if fused::is_supported(&x.device()) {
+            return fused::layer_norm(x, scale, offset, EPSILON as f32);
+        }
+        layer_norm(x, scale, Some(offset), EPSILON)
     }
 }

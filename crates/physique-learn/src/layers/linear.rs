@@ -38,6 +38,19 @@ impl Linear {
 
     /// `[..][inputs]` to `[..][outputs]`.
     pub fn forward<const D: usize>(&self, x: Tensor<D>) -> Tensor<D> {
-        linear(x, self.weight.val().transpose(), Some(self.bias.val()))
+        linear_rows(x, self.weight.val(), self.bias.val())
     }
+}
+
+/// x weight^T + bias, all rows of x in one product: Burn would make one for each motion.
+pub(super) fn linear_rows<const D: usize>(
+    x: Tensor<D>,
+    weight: Tensor<2>,
+    bias: Tensor<1>,
+) -> Tensor<D> {
+    let mut shape = x.dims();
+    let rows = shape[..D - 1].iter().product();
+    let x = x.reshape([rows, shape[D - 1]]);
+    shape[D - 1] = weight.dims()[0];
+    linear(x, weight.transpose(), Some(bias)).reshape(shape)
 }

@@ -1,9 +1,12 @@
 //! Sampling motions from a network.
 
+use burn::tensor::Tensor;
+
 use super::{Condition, Mdm, MdmQuery};
 use crate::Error;
-use crate::diffusion::{BatchEdit, NoiseStreams, Sampler, guide};
+use crate::diffusion::{BatchEdit, NoiseStreams, Sampler, descend, guide};
 use crate::layers::Dropout;
+use crate::motion_loss::WeightedLoss;
 use crate::tensors::numbers;
 
 /// A batch of motions to be.
@@ -20,6 +23,10 @@ pub struct GenerateRequest<'a> {
     /// What is known of them, as many frames as the longest has; see
     /// [`Edit`](crate::diffusion::Edit).
     pub edit: Option<&'a BatchEdit>,
+    /// Losses that the motions are moved against while they are made, see
+    /// [`GuideWeights`](crate::diffusion::GuideWeights): the more, the less noise is left. None
+    /// changes nothing, on any network.
+    pub guides: &'a [WeightedLoss],
 }
 
 /// Generates a batch of motions: for each its normalised features `[frames][columns]`, flat.
@@ -29,7 +36,8 @@ pub struct GenerateRequest<'a> {
 /// step, two with guidance.
 ///
 /// # Errors
-/// [`Error::Input`] when counts disagree or the condition does not fit the network.
+/// [`Error::Input`] when counts disagree or the condition does not fit the network; those of the
+/// guides.
 pub fn generate(
     network: &Mdm,
     sampler: &Sampler,
@@ -42,6 +50,7 @@ pub fn generate(
         seeds,
         guidance,
         edit,
+        guides,
     } = request;
     if seeds.len() != lengths.len() || lengths.is_empty() {
         let expected = format!("{}, one a motion", lengths.len().max(1));
@@ -68,10 +77,17 @@ pub fn generate(
         })?;
         left -= 1;
         observe(left);
-        Ok(match edit {
+        let edited = |clean: Tensor<3>| match edit {
             Some(edit) => edit.apply(clean),
             None => clean,
-        })
+        };
+        let clean = edited(clean);
+        if guides.is_empty() {
+            return Ok(clean);
+        }
+        // What is guessed from noise is not worth moving.
+        let strength = sampler.schedule().kept()[left];
+        Ok(edited(descend(clean, lengths, guides, strength, edit)?))
     })?;
     let motions = numbers(motions)?;
     let motions = motions.chunks_exact((frames * columns).max(1));

@@ -7,7 +7,7 @@ use physique_text::TextEncoder;
 
 use super::{Condition, ConditionKind, GenerateRequest, MdmFolder, generate};
 use crate::Error;
-use crate::diffusion::{BatchEdit, Edit, Method, Sampler, Schedule};
+use crate::diffusion::{BatchEdit, Edit, GuideWeights, Method, Sampler, Schedule};
 use crate::tensors::tensor;
 use crate::text::{NearestCaption, PromptEncoder};
 
@@ -49,6 +49,8 @@ pub struct Sampling {
     pub method: Method,
     /// Steps of noise that are walked; `None`: all that the network was trained with.
     pub steps: Option<usize>,
+    /// Losses that motions are moved against while they are made.
+    pub guides: GuideWeights,
 }
 
 impl Default for Sampling {
@@ -58,6 +60,7 @@ impl Default for Sampling {
             guidance: 2.5,
             method: Method::Ancestral,
             steps: None,
+            guides: GuideWeights::default(),
         }
     }
 }
@@ -159,6 +162,7 @@ impl TextToMotion {
             Some(_) => sampling.guidance,
             None => 1.0,
         };
+        let guides = sampling.guides.guides(&self.folder.statistics)?;
         let lengths: Vec<usize> = prompts.iter().map(|prompt| prompt.frames).collect();
         let seeds: Vec<u64> = prompts.iter().map(|prompt| prompt.seed).collect();
         let edit = known
@@ -170,6 +174,7 @@ impl TextToMotion {
             seeds: &seeds,
             guidance,
             edit: edit.as_ref(),
+            guides: &guides,
         };
         let sampler = Sampler::new(schedule, sampling.method);
         let motions = generate(&self.folder.network, &sampler, request, observe)?;

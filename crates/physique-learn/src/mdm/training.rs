@@ -10,6 +10,7 @@ use super::{Condition, Mdm, MdmQuery};
 use crate::Error;
 use crate::diffusion::{Schedule, add_noise};
 use crate::layers::Dropout;
+use crate::motion_loss::{GroundLoss, SelfIntersectionLoss, SlidingLoss, WeightedLoss};
 use crate::random::Random;
 use crate::tensors::tensor;
 use crate::trainer::{BatchCondition, Loss, MotionSource, Task};
@@ -34,6 +35,13 @@ pub struct MdmTraining {
     /// Weight of the squared error of how joints' positions change from frame to frame, measured
     /// in deviations of their velocities.
     pub velocity_weight: f64,
+    /// Weight of the self-intersection of the predicted motions: lambda_SI of SIA-MDM, 0.01 for
+    /// HumanML3D and 0.0001 for KIT; see [`SelfIntersectionLoss`].
+    pub self_intersection_weight: f64,
+    /// Weight of feet in the ground or above it, see [`GroundLoss`].
+    pub ground_weight: f64,
+    /// Weight of sliding feet, see [`SlidingLoss`].
+    pub sliding_weight: f64,
 }
 
 impl Default for MdmTraining {
@@ -45,6 +53,9 @@ impl Default for MdmTraining {
             unconditioned: 0.1,
             root_weight: 1.0,
             velocity_weight: 0.0,
+            self_intersection_weight: 0.0,
+            ground_weight: 0.0,
+            sliding_weight: 0.0,
         }
     }
 }
@@ -72,12 +83,34 @@ impl MdmTraining {
         for (what, found) in [
             ("root_weight", self.root_weight),
             ("velocity_weight", self.velocity_weight),
+            ("self_intersection_weight", self.self_intersection_weight),
+            ("ground_weight", self.ground_weight),
+            ("sliding_weight", self.sliding_weight),
         ] {
             if !(found.is_finite() && found >= 0.0) {
                 return Err(Error::setting(what, "a finite number from 0", found));
             }
         }
         Ok(())
+    }
+
+    /// Losses of the predicted motions that have a weight; bodies are the embedded one.
+    fn motion_losses(&self, statistics: &FeatureStatistics) -> Result<Vec<WeightedLoss>, Error> {
+        let mut losses = Vec::new();
+        if self.self_intersection_weight > 0.0 {
+            let loss = SelfIntersectionLoss::embedded(statistics)?;
+            let weight = self.self_intersection_weight;
+            losses.push(WeightedLoss::new("self_intersection", weight, loss)?);
+        }
+        if self.ground_weight > 0.0 {
+            let loss = GroundLoss::new(statistics.clone());
+            losses.push(WeightedLoss::new("ground", self.ground_weight, loss)?);
+        }
+        if self.sliding_weight > 0.0 {
+            let loss = SlidingLoss::new(statistics.clone());
+            losses.push(WeightedLoss::new("sliding", self.sliding_weight, loss)?);
+        }
+        Ok(losses)
     }
 }
 
@@ -90,6 +123,7 @@ pub struct MdmTask<S> {
     layout: FeatureLayout,
     /// Deviations of joints' positions over those of their velocities.
     velocity_factor: f64,
+    motion_losses: Vec<WeightedLoss>,
     device: Device,
 }
 
@@ -107,7 +141,7 @@ impl<S: MotionSource> MdmTask<S> {
     ///
     /// # Errors
     /// [`Error::Setting`] for settings that cannot be; [`Error::Input`] when source and statistics
-    /// are of different features.
+    /// are of different features; those of [`SelfIntersectionLoss::embedded`].
     pub fn new(
         source: S,
         statistics: &FeatureStatistics,
@@ -126,10 +160,19 @@ impl<S: MotionSource> MdmTask<S> {
             velocity_factor: deviation(layout.positions.start) / deviation(layout.velocities.start),
             schedule: training.schedule()?,
             layout,
+            motion_losses: training.motion_losses(statistics)?,
             training,
             source,
             device: device.clone(),
         })
+    }
+
+    /// The task with one more loss of the predicted motions: a self-intersection of the user's own
+    /// body, for instance. Its mean over the batch is added to the total and logged by its name.
+    #[must_use]
+    pub fn with_loss(mut self, loss: WeightedLoss) -> Self {
+        self.motion_losses.push(loss);
+        self
     }
 
     /// Draws a step of diffusion, noise, and whether the condition counts, for each motion: each
@@ -198,9 +241,15 @@ impl<S: MotionSource> Task for MdmTask<S> {
         let mut total = error;
         if self.training.velocity_weight > 0.0 {
             let (columns, factor) = (self.layout.positions.clone(), self.velocity_factor);
+            let predicted = predicted.clone();
             let error = velocity_error(predicted, noised.clean, &mask, columns, factor)?.mean();
             total = total + error.clone() * self.training.velocity_weight;
             parts.push(("velocity_error", error));
+        }
+        for term in &self.motion_losses {
+            let mean = term.mean(predicted.clone(), &batch.lengths);
+            total = total + mean.clone() * term.weight();
+            parts.push((term.name(), mean));
         }
         Ok(Loss { total, parts })
     }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::gradient::{NamedGradients, update};
 use crate::Error;
+use crate::fused::{self, AdamWStep};
 
 /// Settings of [`AdamW`]; the default is PyTorch's but for the rate and the decay, which are MDM's.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -98,6 +99,14 @@ impl AdamW {
         let rate = rate * factor;
         let bias = |beta: f64| 1.0 - beta.powf(self.steps as f64);
         let (first_bias, second_bias) = (bias(beta1), bias(beta2));
+        let step = AdamWStep {
+            beta1: beta1 as f32,
+            beta2: beta2 as f32,
+            second_bias: second_bias.sqrt() as f32,
+            epsilon: epsilon as f32,
+            rate: (rate / first_bias) as f32,
+            kept: (1.0 - rate * weight_decay) as f32,
+        };
         update(network, |path, parameter| {
             let Some(gradient) = gradients.0.remove(path) else {
                 return parameter;
@@ -106,6 +115,11 @@ impl AdamW {
                 let zeros = gradient.zeros_like();
                 [zeros.clone(), zeros]
             });
+            if fused::is_supported(&gradient.device()) {
+                let (parameter, moments) = fused::adamw(parameter, gradient, [first, second], step);
+                self.moments.insert(path.to_owned(), moments);
+                return parameter;
+            }
             let first = first.clone() + (gradient.clone() - first) * (1.0 - beta1);
             let second = second * beta2 + gradient.square() * (1.0 - beta2);
             let size = second.clone().sqrt() / second_bias.sqrt() + epsilon;

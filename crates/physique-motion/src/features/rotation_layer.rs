@@ -50,6 +50,12 @@ impl RotationLayer {
         }
     }
 
+    /// By joint, where the mean of its bones points at rest, of unit length; `None` for joints that
+    /// are never swung: the pelvis, and those without children.
+    pub const fn rest_directions(&self) -> &[Option<DVec3>; Joint::COUNT] {
+        &self.rest
+    }
+
     /// Local rotations of one frame's joints, of any unit of length.
     pub fn rotations(&self, joints: &[Vec3; Joint::COUNT]) -> [DMat3; Joint::COUNT] {
         self.frame(&joints.map(|joint| joint.as_dvec3())).local

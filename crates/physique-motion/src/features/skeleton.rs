@@ -58,6 +58,20 @@ impl FeatureSkeleton {
         self.definition().frames_per_second
     }
 
+    /// Metres of one unit of length: KIT's is about 1/600 m.
+    pub const fn metres_per_unit(self) -> f64 {
+        match self {
+            Self::HumanMl3d => 1.0,
+            Self::Kit => 1.0 / 600.0,
+        }
+    }
+
+    /// The joints that the four contact columns are of: ankle and toes of one side, then of the
+    /// other.
+    pub const fn foot_joints(self) -> [usize; 4] {
+        self.definition().feet
+    }
+
     /// The name of a joint, if there is one of this index.
     pub fn joint_name(self, joint: usize) -> Option<&'static str> {
         self.definition().names.get(joint).copied()

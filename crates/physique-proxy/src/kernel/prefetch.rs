@@ -3,9 +3,8 @@
 use std::marker::PhantomData;
 
 use super::TileGradient;
-use crate::PoseMatrices;
 
-/// The poses after a tile's, which are the next tile's if there is one, and the place of the
+/// The frames after a tile's, which are the next tile's if there is one, and the place of the
 /// gradient, which is still far from known.
 ///
 /// They are asked for in [`Ahead::PARTS`] parts, because a processor waits once too many requests
@@ -14,19 +13,19 @@ pub(super) struct Ahead<'a> {
     next: *const i8,
     gradient: *const i8,
     bytes: usize,
-    tile: PhantomData<&'a PoseMatrices>,
+    tile: PhantomData<&'a f32>,
 }
 
 impl<'a> Ahead<'a> {
     const PARTS: usize = 4;
 
     #[inline(always)]
-    pub(super) fn new(poses: &'a [PoseMatrices], gradient: Option<&TileGradient<'_>>) -> Self {
-        let next = poses.as_ptr_range().end.cast();
+    pub(super) fn new(frames: &'a [f32], gradient: Option<&TileGradient<'_>>) -> Self {
+        let next = frames.as_ptr_range().end.cast();
         Self {
             next,
-            gradient: gradient.map_or(next, |gradient| gradient.by_poses.as_ptr().cast()),
-            bytes: size_of_val(poses),
+            gradient: gradient.map_or(next, |gradient| gradient.by_frames.as_ptr().cast()),
+            bytes: size_of_val(frames),
             tile: PhantomData,
         }
     }

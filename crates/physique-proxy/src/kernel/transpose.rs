@@ -1,34 +1,27 @@
 //! Frames to lanes and back, in square blocks.
 
-use physique_body::Joint;
-
-use crate::PoseMatrices;
 use crate::lanes::{Lanes, MOST_LANES, Simd};
-
-const NUMBERS: usize = 9 * Joint::COUNT;
 
 /// Starts of the blocks that cover all numbers of a frame; the last one reaches back over its
 /// neighbour, so that none is cut.
 #[inline(always)]
-fn blocks(count: usize) -> impl Iterator<Item = usize> {
-    (0..NUMBERS.div_ceil(count)).map(move |block| (block * count).min(NUMBERS - count))
+fn blocks(numbers: usize, count: usize) -> impl Iterator<Item = usize> {
+    (0..numbers.div_ceil(count)).map(move |block| (block * count).min(numbers - count))
 }
 
-/// `poses` are as many as lanes. Returns 0 in lanes of finite poses, else NaN.
+/// `frames` are as many as lanes, of as many numbers as `lanes`. Returns 0 in lanes of finite
+/// frames, else NaN.
 #[inline(always)]
-pub(super) fn load<S: Simd>(
-    simd: S,
-    poses: &[PoseMatrices],
-    lanes: &mut [[S::Lanes; 9]; Joint::COUNT],
-) -> S::Lanes {
-    let lanes = lanes.as_flattened_mut();
+pub(super) fn load<S: Simd>(simd: S, frames: &[f32], lanes: &mut [S::Lanes]) -> S::Lanes {
+    let numbers = lanes.len();
     let zero = simd.splat(0.0);
     // Four sums, so that none waits for the last.
     let mut poison = [zero; 4];
-    for start in blocks(S::COUNT) {
+    for start in blocks(numbers, S::COUNT) {
         let mut block = [simd.splat(0.0); MOST_LANES];
-        for (row, pose) in block.iter_mut().zip(&poses[..S::COUNT]) {
-            *row = simd.load(&pose.as_flattened()[start..]);
+        let rows = frames.chunks_exact(numbers).take(S::COUNT);
+        for (row, frame) in block.iter_mut().zip(rows) {
+            *row = simd.load(&frame[start..]);
         }
         transpose::<S>(&mut block);
         for (place, lane) in block[..S::COUNT].iter().enumerate() {
@@ -39,20 +32,17 @@ pub(super) fn load<S: Simd>(
     (poison[0] + poison[1]) + (poison[2] + poison[3])
 }
 
-/// `poses` are as many as lanes.
+/// `frames` are as many as lanes, of as many numbers as `lanes`.
 #[inline(always)]
-pub(super) fn store<S: Simd>(
-    simd: S,
-    lanes: &[[S::Lanes; 9]; Joint::COUNT],
-    poses: &mut [PoseMatrices],
-) {
-    let lanes = lanes.as_flattened();
-    for start in blocks(S::COUNT) {
+pub(super) fn store<S: Simd>(simd: S, lanes: &[S::Lanes], frames: &mut [f32]) {
+    let numbers = lanes.len();
+    for start in blocks(numbers, S::COUNT) {
         let mut block = [simd.splat(0.0); MOST_LANES];
         block[..S::COUNT].copy_from_slice(&lanes[start..start + S::COUNT]);
         transpose::<S>(&mut block);
-        for (row, pose) in block.iter().zip(&mut poses[..S::COUNT]) {
-            row.store(&mut pose.as_flattened_mut()[start..]);
+        let rows = frames.chunks_exact_mut(numbers).take(S::COUNT);
+        for (row, frame) in block.iter().zip(rows) {
+            row.store(&mut frame[start..]);
         }
     }
 }

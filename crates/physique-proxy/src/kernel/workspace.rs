@@ -2,7 +2,8 @@
 
 use physique_body::Joint;
 
-use crate::PoseMatrices;
+use super::MOST_NUMBERS;
+use super::swings::SwingWork;
 use crate::lanes::Simd;
 use crate::plan::{Plan, QUAD};
 
@@ -28,15 +29,17 @@ pub(crate) struct Workspace<L> {
     pub(crate) group_pairs: Vec<u32>,
     pub(crate) quad_pairs: Vec<u32>,
     pub(crate) touching: Vec<(u32, u16)>,
+    /// Positions, where they are given; on the way back, the loss's derivatives by them.
+    pub(crate) joints: [[L; 3]; Joint::COUNT],
+    pub(crate) swings: SwingWork<L>,
     /// For a last tile that is not full.
-    pub(crate) poses: Vec<PoseMatrices>,
-    pub(crate) by_poses: Vec<PoseMatrices>,
+    pub(crate) frames: Vec<f32>,
+    pub(crate) by_frames: Vec<f32>,
 }
 
 impl<L: Copy> Workspace<L> {
     pub(crate) fn new<S: Simd<Lanes = L>>(simd: S, plan: &Plan) -> Self {
         let zero = simd.splat(0.0);
-        let empty = [[0.0; 9]; Joint::COUNT];
         Self {
             local: [[zero; 9]; Joint::COUNT],
             world_from_joint: [[zero; 12]; Joint::COUNT],
@@ -50,8 +53,10 @@ impl<L: Copy> Workspace<L> {
             group_pairs: vec![0; plan.group_pairs.len() + 1],
             quad_pairs: vec![0; plan.quad_pairs.len() + 1],
             touching: vec![(0, 0); plan.quad_pairs.len() + 1],
-            poses: vec![empty; S::COUNT],
-            by_poses: vec![empty; S::COUNT],
+            joints: [[zero; 3]; Joint::COUNT],
+            swings: SwingWork::new(zero),
+            frames: vec![0.0; S::COUNT * MOST_NUMBERS],
+            by_frames: vec![0.0; S::COUNT * MOST_NUMBERS],
         }
     }
 }
