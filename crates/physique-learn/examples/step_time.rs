@@ -11,9 +11,7 @@ use physique_learn::layers::NormPlace;
 use physique_learn::mdm::{ConditionKind, Mdm, MdmConfig, MdmTask, MdmTraining};
 use physique_learn::random::Random;
 use physique_learn::text::Embeddings;
-use physique_learn::trainer::{
-    BatchCondition, MotionBatch, MotionSource, Trainer, TrainerConfig,
-};
+use physique_learn::trainer::{BatchCondition, MotionBatch, MotionSource, Trainer, TrainerConfig};
 use physique_motion::embedded;
 use physique_motion::features::{
     FeatureSkeleton, FeatureStatistics, JointPositions, StatisticsGatherer, extract,
@@ -58,8 +56,12 @@ fn main() {
     let mut arguments = std::env::args().skip(1);
     let name = arguments.next().unwrap_or_else(|| "small".into());
     let case = if name == "large" { large() } else { small() };
-    let steps = arguments.next().map_or(5, |steps| steps.parse().expect("a number"));
-    let weight = arguments.next().map_or(0.0, |weight| weight.parse().expect("a number"));
+    let steps = arguments
+        .next()
+        .map_or(5, |steps| steps.parse().expect("a number"));
+    let weight = arguments
+        .next()
+        .map_or(0.0, |weight| weight.parse().expect("a number"));
 
     let device = Device::flex().autodiff();
     let (features, statistics) = features();
@@ -141,7 +143,12 @@ impl MotionSource for Clip {
         let count = self.frames * self.columns();
         let features = (0..size).flat_map(|_| {
             let start = random.below(self.features.len() / self.columns()) * self.columns();
-            self.features.iter().copied().cycle().skip(start).take(count)
+            self.features
+                .iter()
+                .copied()
+                .cycle()
+                .skip(start)
+                .take(count)
         });
         let features = features.collect();
         let mut values = vec![0.0; size * self.width];
@@ -167,7 +174,10 @@ fn processor_seconds() -> f64 {
     // User and system time are the 14th and 15th number; names may hold spaces, but end in `)`.
     let after = stat.rsplit(')').next().unwrap_or_default();
     let ticks = after.split_whitespace().skip(11).take(2);
-    ticks.filter_map(|ticks| ticks.parse::<f64>().ok()).sum::<f64>() / 100.0
+    ticks
+        .filter_map(|ticks| ticks.parse::<f64>().ok())
+        .sum::<f64>()
+        / 100.0
 }
 
 /// A line of the process's status, in MiB; 0 where the system does not tell.
@@ -175,5 +185,8 @@ fn memory(line: &str) -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let found = status.lines().find_map(|text| text.strip_prefix(line));
     let number = found.and_then(|text| text.split_whitespace().nth(1));
-    number.and_then(|number| number.parse::<f64>().ok()).unwrap_or(0.0) / 1024.0
+    number
+        .and_then(|number| number.parse::<f64>().ok())
+        .unwrap_or(0.0)
+        / 1024.0
 }

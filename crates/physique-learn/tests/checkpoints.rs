@@ -165,7 +165,7 @@ fn our_own_files_keep_every_bit() {
     let (model, arguments) = read.expect("sound");
     let parameters = parameters_of(&model, "a test").expect("readable");
     let words = [("step".to_owned(), "7".to_owned())].into();
-    write_safetensors(&path, &parameters, words).expect("written");
+    write_safetensors(&path, &parameters, words, Precision::Single).expect("written");
     let (again, words) = read_safetensors(&path, &limits).expect("just written");
     assert_eq!(again.arrays, parameters.arrays);
     assert_eq!(words["step"], "7");

@@ -85,7 +85,9 @@ fn value_and_gradient_are_those_of_features() {
         let deviations = statistics.deviation().iter().cycle();
         let expected = expected.by_features.iter().zip(deviations);
         let expected: Vec<_> = expected.map(|(by, deviation)| by * deviation).collect();
-        let size = expected.iter().fold(0.0, |most: f32, by| most.max(by.abs()));
+        let size = expected
+            .iter()
+            .fold(0.0, |most: f32, by| most.max(by.abs()));
         let (within, behind) = by_motion.split_at(expected.len());
         for (found, expected) in within.iter().zip(&expected) {
             assert!((found - expected).abs() < 1e-4 * size, "{found} {expected}");
@@ -148,9 +150,16 @@ fn gradient_through_a_network_equals_finite_differences() {
         let difference = (at(step) - at(-step)) / (2.0 * f64::from(step));
         let along = gradient.iter().zip(&direction);
         let along: f64 = along.map(|(by, along)| f64::from(by * along)).sum();
-        let size = gradient.iter().map(|by| f64::from(by * by)).sum::<f64>().sqrt();
+        let size = gradient
+            .iter()
+            .map(|by| f64::from(by * by))
+            .sum::<f64>()
+            .sqrt();
         let far = (difference - along).abs();
-        assert!(far < 0.02 * size, "{difference} {along}, gradient of {size}");
+        assert!(
+            far < 0.02 * size,
+            "{difference} {along}, gradient of {size}"
+        );
     }
 }
 
@@ -217,7 +226,10 @@ fn the_task_adds_it_by_its_weight() {
     assert!(part > 0.0);
     let expected = number(&without.total) + 0.5 * part;
     let found = number(&with.total);
-    assert!((found - expected).abs() < 1e-5 * expected, "{found} {expected}");
+    assert!(
+        (found - expected).abs() < 1e-5 * expected,
+        "{found} {expected}"
+    );
 }
 
 #[test]
@@ -257,5 +269,8 @@ fn motions_that_are_none_stop_the_run() {
     let mut trainer =
         Trainer::open(task, network(&device), config, folder.path()).expect("a new run");
     let told = trainer.run(|_| true).expect_err("no number").to_string();
-    assert!(told.starts_with("Training, step 1: the loss of giants is NaN"), "{told}");
+    assert!(
+        told.starts_with("Training, step 1: the loss of giants is NaN"),
+        "{told}"
+    );
 }

@@ -16,8 +16,8 @@ use physique_motion::features::{
 };
 use physique_motion::mapping::BodyRest;
 use physique_proxy::{
-    Backend, FeatureBatch, FeatureLoss, MeshLoss, MeshLossOptions, Pairs, PoseMatrices, SelfIntersection,
-    SelfIntersectionOptions, SphereBody, explain, open_proxy,
+    Backend, FeatureBatch, FeatureLoss, MeshLoss, MeshLossOptions, Pairs, PoseMatrices,
+    SelfIntersection, SelfIntersectionOptions, SphereBody, explain, open_proxy,
 };
 
 /// Body, pairs, and real poses.

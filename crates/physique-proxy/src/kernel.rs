@@ -85,12 +85,9 @@ impl<S: Simd> Kernel<S> for Tile<'_, S::Lanes> {
         let (plan, work) = (self.plan, self.workspace);
         let ahead = prefetch::Ahead::new(self.frames, self.gradient.as_ref());
         let not_finite = match self.given {
-            Given::Rotations => {
-                transpose::load(simd, self.frames, work.local.as_flattened_mut())
-            }
+            Given::Rotations => transpose::load(simd, self.frames, work.local.as_flattened_mut()),
             Given::Joints(swings) => {
-                let not_finite =
-                    transpose::load(simd, self.frames, work.joints.as_flattened_mut());
+                let not_finite = transpose::load(simd, self.frames, work.joints.as_flattened_mut());
                 not_finite + swings::forward(simd, swings, work)
             }
         };

@@ -214,11 +214,7 @@ impl fmt::Debug for SelfIntersection {
 }
 
 /// One element a frame.
-pub(crate) fn check_length<T>(
-    what: &'static str,
-    frames: &[T],
-    found: usize,
-) -> Result<(), Error> {
+pub(crate) fn check_length<T>(what: &'static str, frames: &[T], found: usize) -> Result<(), Error> {
     if found == frames.len() {
         return Ok(());
     }

@@ -79,7 +79,12 @@ pub(crate) struct SamplingArguments {
     pub(crate) ddim: Option<f64>,
     /// Losses that motions are moved against while they are made, on any network: NAME=WEIGHT of
     /// `self`, `ground` and `feet`, 1 for a full step; such as `self=1,feet=1`.
-    #[arg(long, value_name = "NAME=WEIGHT,...", default_value = "", hide_default_value = true)]
+    #[arg(
+        long,
+        value_name = "NAME=WEIGHT,...",
+        default_value = "",
+        hide_default_value = true
+    )]
     pub(crate) guide: GuideWeights,
 }
 

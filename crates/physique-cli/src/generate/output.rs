@@ -90,6 +90,6 @@ impl Outputs {
             intersections: &scorer.self_intersections(&loaded.motion, |_| ())?,
             moments: 8,
         };
-        Ok(sheet.render()?.write_png(&path.with_extension("png"))?)
+        Ok(sheet.render()?.write_png(path.with_extension("png"))?)
     }
 }

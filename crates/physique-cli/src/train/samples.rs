@@ -38,7 +38,7 @@ pub(super) fn draw(
         };
         sheet
             .render()?
-            .write_png(&folder.join(format!("{number}.png")))?;
+            .write_png(folder.join(format!("{number}.png")))?;
     }
     Ok(())
 }

@@ -89,10 +89,23 @@ mod tests {
             ground: 0.0,
         };
         assert_eq!(read, expected);
-        assert_eq!("".parse::<GuideWeights>().expect("none"), GuideWeights::default());
-        for wrong in ["self", "self=", "self=-1", "feet=NaN", "hands=1", "self=1;feet=1"] {
+        assert_eq!(
+            "".parse::<GuideWeights>().expect("none"),
+            GuideWeights::default()
+        );
+        for wrong in [
+            "self",
+            "self=",
+            "self=-1",
+            "feet=NaN",
+            "hands=1",
+            "self=1;feet=1",
+        ] {
             let told = wrong.parse::<GuideWeights>().expect_err(wrong).to_string();
-            assert!(told.contains("NAME=WEIGHT, of self, ground, feet"), "{told}");
+            assert!(
+                told.contains("NAME=WEIGHT, of self, ground, feet"),
+                "{told}"
+            );
         }
     }
 }

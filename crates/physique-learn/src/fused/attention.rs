@@ -68,9 +68,7 @@ impl Attention {
     /// Queries, keys and values of a head: columns of one motion's rows.
     fn parts<'a>(&self, rows: &'a [f32], head: usize) -> [Matrix<'a>; 3] {
         let start = head * self.width / self.heads;
-        [0, 1, 2].map(|part| {
-            Matrix::rows(&rows[part * self.width + start..], 3 * self.width)
-        })
+        [0, 1, 2].map(|part| Matrix::rows(&rows[part * self.width + start..], 3 * self.width))
     }
 
     /// Weights of attention of a head, and where there is dropout, those with it.
@@ -79,7 +77,14 @@ impl Attention {
         let [queries, keys, _] = self.parts(rows, head);
         let factor = (width as f64).sqrt().recip() as f32;
         let weights = &mut scratch.weights;
-        product([frames, width, frames], factor, queries, keys.transposed(), weights, frames);
+        product(
+            [frames, width, frames],
+            factor,
+            queries,
+            keys.transposed(),
+            weights,
+            frames,
+        );
         let hidden = self.hidden.as_ref();
         let hidden = hidden.map(|hidden| &hidden[motion * frames..][..frames]);
         softmax(weights, frames, hidden);
@@ -93,7 +98,11 @@ impl Attention {
 
 impl Scratch {
     fn used(&self) -> &[f32] {
-        if self.dropped.is_empty() { &self.weights } else { &self.dropped }
+        if self.dropped.is_empty() {
+            &self.weights
+        } else {
+            &self.dropped
+        }
     }
 }
 
@@ -168,10 +177,24 @@ impl Attention {
         let by_output = Matrix::rows(&by_output[start..], self.width);
         let used = Matrix::rows(scratch.used(), frames).transposed();
         let by_values = &mut by_rows[2 * self.width + start..];
-        product([frames, frames, width], 1.0, used, by_output, by_values, row);
+        product(
+            [frames, frames, width],
+            1.0,
+            used,
+            by_output,
+            by_values,
+            row,
+        );
 
         let by = &mut scratch.by_weights;
-        product([frames, width, frames], 1.0, by_output, values.transposed(), by, frames);
+        product(
+            [frames, width, frames],
+            1.0,
+            by_output,
+            values.transposed(),
+            by,
+            frames,
+        );
         if let Some(mask) = &self.mask {
             multiply(mask, (motion * self.heads + head) * by.len(), by);
         }
@@ -182,7 +205,14 @@ impl Attention {
         let by_queries = &mut by_rows[start..];
         product([frames, frames, width], factor, by, keys, by_queries, row);
         let by_keys = &mut by_rows[self.width + start..];
-        product([frames, frames, width], factor, by.transposed(), queries, by_keys, row);
+        product(
+            [frames, frames, width],
+            factor,
+            by.transposed(),
+            queries,
+            by_keys,
+            row,
+        );
     }
 }
 
@@ -200,7 +230,9 @@ fn softmax(rows: &mut [f32], width: usize, hidden: Option<&[bool]>) {
                 *score = if hidden { f32::NEG_INFINITY } else { *score };
             }
         }
-        let most = fold(row, f32::NEG_INFINITY, |most, score| if score > most { score } else { most });
+        let most = fold(row, f32::NEG_INFINITY, |most, score| {
+            if score > most { score } else { most }
+        });
         for score in row.iter_mut() {
             *score = exp(*score - most);
         }
@@ -242,5 +274,6 @@ fn fold(numbers: &[f32], start: f32, join: impl Fn(f32, f32) -> f32) -> f32 {
         }
     }
     let whole = parts.into_iter().fold(start, &join);
-    rest.iter().fold(whole, |whole, number| join(whole, *number))
+    rest.iter()
+        .fold(whole, |whole, number| join(whole, *number))
 }

@@ -70,7 +70,12 @@ impl DropMask {
     fn draw(&self, quad: usize) -> [u16; QUAD] {
         let steps = (quad as u64).wrapping_add(1);
         let bits = scramble(self.state.wrapping_add(steps.wrapping_mul(STEP)));
-        [bits as u16, (bits >> 16) as u16, (bits >> 32) as u16, (bits >> 48) as u16]
+        [
+            bits as u16,
+            (bits >> 16) as u16,
+            (bits >> 32) as u16,
+            (bits >> 48) as u16,
+        ]
     }
 
     #[inline(always)]
@@ -140,7 +145,9 @@ impl Operation for AddDropped {
 
     fn forward(&self, inputs: &[&[f32]]) -> Forward {
         let mut output = inputs[1].to_vec();
-        let blocks = output.par_chunks_mut(BLOCK).zip(inputs[0].par_chunks(BLOCK));
+        let blocks = output
+            .par_chunks_mut(BLOCK)
+            .zip(inputs[0].par_chunks(BLOCK));
         blocks.enumerate().for_each(|(index, (block, others))| {
             multiply(&self.mask, index * BLOCK, block);
             for (value, other) in block.iter_mut().zip(others) {

@@ -16,7 +16,15 @@ pub(super) fn exp(x: f32) -> f32 {
     let rest = (x - whole * HIGH) - whole * LOW;
     // Taylor's series; the rest is at most ln 2 / 2.
     let mut sum = 1.0 / 5040.0;
-    for coefficient in [1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
+    for coefficient in [
+        1.0 / 720.0,
+        1.0 / 120.0,
+        1.0 / 24.0,
+        1.0 / 6.0,
+        0.5,
+        1.0,
+        1.0,
+    ] {
         sum = sum * rest + coefficient;
     }
     sum * f32::from_bits(rounded.to_bits().wrapping_add(127) << 23)
@@ -34,7 +42,7 @@ pub(super) fn erf(x: f32) -> f32 {
         -2.685_444_4e-2,
         1.128_36e-1,
         -3.761_262_6e-1,
-        1.128_379_1,
+        std::f32::consts::FRAC_2_SQRT_PI,
     ] {
         near = near * square + coefficient;
     }

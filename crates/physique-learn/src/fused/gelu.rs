@@ -26,7 +26,9 @@ impl Operation for DroppedGelu {
 
     fn forward(&self, inputs: &[&[f32]]) -> Forward {
         let mut output = vec![0.0; inputs[0].len()];
-        let blocks = output.par_chunks_mut(BLOCK).zip(inputs[0].par_chunks(BLOCK));
+        let blocks = output
+            .par_chunks_mut(BLOCK)
+            .zip(inputs[0].par_chunks(BLOCK));
         blocks.enumerate().for_each(|(index, (output, input))| {
             gelu(input, output, self.mask.as_ref(), index * BLOCK);
         });
@@ -38,7 +40,9 @@ impl Operation for DroppedGelu {
 
     fn backward(&self, inputs: &[&[f32]], _: &[f32], by_output: &[f32]) -> Vec<Vec<f32>> {
         let mut by_input = by_output.to_vec();
-        let blocks = by_input.par_chunks_mut(BLOCK).zip(inputs[0].par_chunks(BLOCK));
+        let blocks = by_input
+            .par_chunks_mut(BLOCK)
+            .zip(inputs[0].par_chunks(BLOCK));
         blocks.enumerate().for_each(|(index, (by_input, input))| {
             multiply_slope(input, by_input, self.mask.as_ref(), index * BLOCK);
         });

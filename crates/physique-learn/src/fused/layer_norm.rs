@@ -101,7 +101,9 @@ fn normalise(
 ) {
     let width = scale.len();
     let offset = &offset[..width];
-    let rows = values.chunks_exact(width).zip(output.chunks_exact_mut(width));
+    let rows = values
+        .chunks_exact(width)
+        .zip(output.chunks_exact_mut(width));
     for ((row, output), kept) in rows.zip(kept.as_chunks_mut::<2>().0) {
         let mean = sum(width, |index| row[index]) / width as f32;
         let square = |index: usize| (row[index] - mean) * (row[index] - mean);
@@ -126,7 +128,9 @@ fn denormalise(
     let width = scale.len();
     let (by_scale, by_offset) = sums.split_at_mut(width);
     let by_offset = &mut by_offset[..width];
-    let rows = values.chunks_exact(width).zip(by_output.chunks_exact(width));
+    let rows = values
+        .chunks_exact(width)
+        .zip(by_output.chunks_exact(width));
     let rows = rows.zip(by_values.chunks_exact_mut(width));
     for (((row, by_output), by_row), &[mean, inverse]) in rows.zip(kept.as_chunks::<2>().0) {
         for index in 0..width {

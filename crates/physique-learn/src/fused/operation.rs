@@ -116,7 +116,12 @@ pub(crate) trait FusedOps: Backend {
         c: FloatTensor<Self>,
         d: FloatTensor<Self>,
         change: Arc<dyn Change>,
-    ) -> (FloatTensor<Self>, FloatTensor<Self>, FloatTensor<Self>, FloatTensor<Self>);
+    ) -> (
+        FloatTensor<Self>,
+        FloatTensor<Self>,
+        FloatTensor<Self>,
+        FloatTensor<Self>,
+    );
 }
 
 impl FusedOps for Flex {
@@ -168,7 +173,12 @@ impl FusedOps for Flex {
         c: FloatTensor<Self>,
         d: FloatTensor<Self>,
         change: Arc<dyn Change>,
-    ) -> (FloatTensor<Self>, FloatTensor<Self>, FloatTensor<Self>, FloatTensor<Self>) {
+    ) -> (
+        FloatTensor<Self>,
+        FloatTensor<Self>,
+        FloatTensor<Self>,
+        FloatTensor<Self>,
+    ) {
         let mut tensors = [a, b, c, d].map(|tensor| {
             // Only one of the two may be left, or the numbers would be shared and copied.
             let contiguous = tensor.to_contiguous();
@@ -301,7 +311,12 @@ impl<B: FusedOps, C: CheckpointStrategy> FusedOps for Autodiff<B, C> {
         c: FloatTensor<Self>,
         d: FloatTensor<Self>,
         change: Arc<dyn Change>,
-    ) -> (FloatTensor<Self>, FloatTensor<Self>, FloatTensor<Self>, FloatTensor<Self>) {
+    ) -> (
+        FloatTensor<Self>,
+        FloatTensor<Self>,
+        FloatTensor<Self>,
+        FloatTensor<Self>,
+    ) {
         let [a, b, c, d] = [a, b, c, d].map(|tensor| tensor.into_primitive());
         let (a, b, c, d) = B::change_in_place(a, b, c, d, change);
         [a, b, c, d].map(Self::from_inner).into()

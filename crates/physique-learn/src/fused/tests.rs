@@ -22,7 +22,8 @@ fn mask<const D: usize>(shape: [usize; D]) -> (DropMask, Tensor<D>) {
     let mask = DropMask::new(20_000, &Random::new(&[99]));
     let mut factors = vec![1.0; shape.iter().product()];
     mask.multiply(0, &mut factors);
-    let share = factors.iter().filter(|factor| **factor == 0.0).count() as f64 / factors.len() as f64;
+    let share =
+        factors.iter().filter(|factor| **factor == 0.0).count() as f64 / factors.len() as f64;
     assert!((share - 20_000.0 / 65_536.0).abs() < 0.1, "{share}");
     let factors = TensorData::new(factors, shape);
     (mask, Tensor::from_data(factors, &Device::flex().autodiff()))
@@ -50,7 +51,10 @@ fn assert_close(found: &[Vec<f32>], expected: &[Vec<f32>], tolerance: f32) {
         assert!(size > 0.0);
         for (place, (found, expected)) in found.iter().zip(expected).enumerate() {
             let far = (found - expected).abs();
-            assert!(far <= tolerance * size, "{index}, {place}: {found} {expected}");
+            assert!(
+                far <= tolerance * size,
+                "{index}, {place}: {found} {expected}"
+            );
         }
     }
 }
@@ -116,7 +120,8 @@ fn elementary_attention(
     let width = width / 3;
     let [queries, keys, values] = [0, 1, 2].map(|part| {
         let part = projected.clone().narrow(2, part * width, width);
-        part.reshape([batch, frames, heads, width / heads]).swap_dims(1, 2)
+        part.reshape([batch, frames, heads, width / heads])
+            .swap_dims(1, 2)
     });
     let factor = ((width / heads) as f64).sqrt().recip();
     let scores = (queries * factor).matmul(keys.transpose());
@@ -127,7 +132,10 @@ fn elementary_attention(
         Some(factors) => weights * factors.clone(),
         None => weights,
     };
-    weights.matmul(values).swap_dims(1, 2).reshape([batch, frames, width])
+    weights
+        .matmul(values)
+        .swap_dims(1, 2)
+        .reshape([batch, frames, width])
 }
 
 #[test]

@@ -62,7 +62,8 @@ impl DecoderLayer {
             .to_memory(x.clone(), tokens, hidden, dropout);
         let x = self.norm2.forward(dropout.add(x, looked_up));
         let inner = dropout.gelu(self.linear1.forward(x.clone()));
-        self.norm3.forward(dropout.add(x, self.linear2.forward(inner)))
+        self.norm3
+            .forward(dropout.add(x, self.linear2.forward(inner)))
     }
 }
 

@@ -47,7 +47,12 @@ pub(super) fn evaluate(
     let motions = motions.zip(gradient.par_chunks_mut(frames * columns));
     let losses = motions.map(|((motion, &length), by_motion)| {
         let within = length * columns;
-        one(loss, statistics, &motion[..within], &mut by_motion[..within])
+        one(
+            loss,
+            statistics,
+            &motion[..within],
+            &mut by_motion[..within],
+        )
     });
     let losses: Vec<Result<f32, Error>> = losses.collect();
     Ok(LossAndGradient {

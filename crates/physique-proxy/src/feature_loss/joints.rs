@@ -43,7 +43,9 @@ impl FeatureBatch<'_> {
     /// below the root, in the root's heading.
     pub(super) fn joints(&self) -> Vec<JointFrame> {
         let columns = self.skeleton.feature_count();
-        let rows = self.motions().flat_map(|motion| motion.chunks_exact(columns));
+        let rows = self
+            .motions()
+            .flat_map(|motion| motion.chunks_exact(columns));
         let mut joints = Vec::with_capacity(self.lengths.iter().sum());
         joints.extend(rows.map(|row| match self.skeleton {
             FeatureSkeleton::HumanMl3d => self.row_joints(row),
@@ -135,7 +137,8 @@ impl FeatureBatch<'_> {
             by_joints[0][2] = by_joints[0][1];
             let by_numbers = &by_joints.as_flattened()[2..];
             let place = layout.root_height..layout.positions.end;
-            for ((by, column), by_number) in by_row[place.clone()].iter_mut().zip(place).zip(by_numbers)
+            for ((by, column), by_number) in
+                by_row[place.clone()].iter_mut().zip(place).zip(by_numbers)
             {
                 *by = by_number * deviation(column);
             }

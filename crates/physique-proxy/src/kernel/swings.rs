@@ -95,11 +95,7 @@ const FOLDED: f32 = 2e-12;
 
 /// From `joints` to `local`. Returns 0 in lanes of numbers, else NaN.
 #[inline(always)]
-pub(super) fn forward<S: Simd>(
-    simd: S,
-    plan: &Swings,
-    work: &mut Workspace<S::Lanes>,
-) -> S::Lanes {
+pub(super) fn forward<S: Simd>(simd: S, plan: &Swings, work: &mut Workspace<S::Lanes>) -> S::Lanes {
     let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
     let mut poison = zero;
     let joints = &work.joints;
@@ -130,7 +126,10 @@ pub(super) fn forward<S: Simd>(
         let missing = one - one.where_positive(now.inverse_length);
         let direction = splat(simd, rest.direction);
         // Without bones, as at rest.
-        let in_parent = add(multiply(&transpose(&above), now.direction), scale(direction, missing));
+        let in_parent = add(
+            multiply(&transpose(&above), now.direction),
+            scale(direction, missing),
+        );
         let (swing, local) = swing(simd, rest, now, in_parent);
         work.swings.swings[joint] = swing;
         work.local[joint] = local;
@@ -326,11 +325,7 @@ fn dot<L: Lanes>(a: [L; 3], b: [L; 3]) -> L {
 
 #[inline(always)]
 fn cross<L: Lanes>([ax, ay, az]: [L; 3], [bx, by, bz]: [L; 3]) -> [L; 3] {
-    [
-        ay * bz - az * by,
-        az * bx - ax * bz,
-        ax * by - ay * bx,
-    ]
+    [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
 }
 
 /// The rotation of a joint's transform.
@@ -355,7 +350,11 @@ fn add_to<L: Lanes>(sum: &mut [L; 9], matrix: &[L; 9]) {
 /// A v.
 #[inline(always)]
 fn multiply<L: Lanes>([a, b, c, d, e, f, g, h, i]: &[L; 9], v: [L; 3]) -> [L; 3] {
-    [dot([*a, *b, *c], v), dot([*d, *e, *f], v), dot([*g, *h, *i], v)]
+    [
+        dot([*a, *b, *c], v),
+        dot([*d, *e, *f], v),
+        dot([*g, *h, *i], v),
+    ]
 }
 
 /// A B.

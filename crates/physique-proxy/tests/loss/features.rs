@@ -94,8 +94,7 @@ fn slow_gradient(
     for (joints, &weight) in positions.positions().as_chunks().0.iter().zip(weights) {
         let rotations = layer.rotations(joints);
         let squared = Penalty::Squared;
-        let (value, by) =
-            reference::self_intersection(&body, &pairs, squared, 0.0, &rotations);
+        let (value, by) = reference::self_intersection(&body, &pairs, squared, 0.0, &rotations);
         sum += value * f64::from(weight);
         let by_rotations = by.rotations.map(|by| by * f64::from(weight));
         let by_joints = layer.gradient(joints, &by_rotations, rule);
@@ -117,7 +116,9 @@ fn value_and_gradient_are_those_of_the_slow_layer() {
         let weights: Vec<_> = (0..frames).map(|frame| 0.2 + 0.1 * frame as f32).collect();
         for rule in [GradientRule::ParentsConstant, GradientRule::Full] {
             let (expected, by_features) = slow_gradient(&features, &weights, rule);
-            let all = by_features.iter().fold(0.0, |most: f64, by| most.max(by.abs()));
+            let all = by_features
+                .iter()
+                .fold(0.0, |most: f64, by| most.max(by.abs()));
             // Columns of one block are of one size.
             let blocks = FeatureLayout::of(skeleton).blocks();
             for backend in Backend::available() {
@@ -131,9 +132,8 @@ fn value_and_gradient_are_those_of_the_slow_layer() {
                     let pairs = (0..frames).flat_map(|frame| {
                         block.clone().map(move |column| frame * columns + column)
                     });
-                    let pairs = pairs.map(|index| {
-                        (by_features[index], f64::from(found.by_features[index]))
-                    });
+                    let pairs = pairs
+                        .map(|index| (by_features[index], f64::from(found.by_features[index])));
                     let (mut most, mut worst) = (0.0_f64, 0.0_f64);
                     for (expected, found) in pairs {
                         most = most.max(expected.abs());
@@ -170,9 +170,10 @@ fn rest() -> [Vec3; 22] {
     for joint in physique_body::Joint::ALL {
         if let Some(parent) = joint.parent() {
             let bone = layer.rest_directions()[parent.index()];
-            let bone = bone.map_or(FeatureSkeleton::HumanMl3d.offsets()[joint.index()], |bone| {
-                0.3 * bone.as_vec3()
-            });
+            let bone = bone.map_or(
+                FeatureSkeleton::HumanMl3d.offsets()[joint.index()],
+                |bone| 0.3 * bone.as_vec3(),
+            );
             joints[joint.index()] = joints[parent.index()] + bone;
         }
     }
@@ -184,7 +185,9 @@ fn rest() -> [Vec3; 22] {
 fn folded_bones_are_those_of_the_slow_layer() {
     let [knee, ankle] = [4, 7];
     let layer = RotationLayer::published(FeatureSkeleton::HumanMl3d);
-    let shin = layer.rest_directions()[knee].expect("it has a bone").as_vec3();
+    let shin = layer.rest_directions()[knee]
+        .expect("it has a bone")
+        .as_vec3();
     for (angle, tolerance) in [(0.0, 1e-4), (1e-3, 1e-2), (1e-2, 1e-3), (0.1, 1e-4)] {
         let mut joints = rest();
         let aside = angle * shin.any_orthonormal_vector();
@@ -198,7 +201,9 @@ fn folded_bones_are_those_of_the_slow_layer() {
                 let value = f64::from(found.losses[0]);
                 let close = (value / expected - 1.0).abs() < tolerance;
                 assert!(close, "{angle} {backend}: {value} {expected}");
-                let size = by_features.iter().fold(0.0, |most: f64, by| most.max(by.abs()));
+                let size = by_features
+                    .iter()
+                    .fold(0.0, |most: f64, by| most.max(by.abs()));
                 for (by, expected) in found.by_features.iter().zip(&by_features) {
                     let far = (f64::from(*by) - expected).abs();
                     assert!(far < tolerance * size, "{angle} {backend}: {by} {expected}");
@@ -382,7 +387,9 @@ fn a_batch_is_its_motions() {
     for (motion, by_motion) in motions.iter().zip(by_motions) {
         let within = first..first + motion.frame_count();
         first = within.end;
-        let alone = loss.gradient(motion, &weights[within.clone()]).expect("finite");
+        let alone = loss
+            .gradient(motion, &weights[within.clone()])
+            .expect("finite");
         assert_eq!(alone.losses, together.losses[within]);
         let (by_motion, behind) = by_motion.split_at(motion.values().len());
         assert_eq!(alone.by_features, by_motion);
@@ -391,9 +398,15 @@ fn a_batch_is_its_motions() {
     let wrong = loss.gradient(&motions[0], &[1.0]);
     let wrong = wrong.expect_err("one weight a frame").to_string();
     assert!(wrong.contains("Weights"), "{wrong}");
-    let shorter = FeatureBatch { frames: 39, ..batch };
+    let shorter = FeatureBatch {
+        frames: 39,
+        ..batch
+    };
     let wrong = loss.batch(&shorter).expect_err("more numbers").to_string();
-    assert!(wrong.starts_with("Features: expected 3 motions of up to 39 x 263"), "{wrong}");
+    assert!(
+        wrong.starts_with("Features: expected 3 motions of up to 39 x 263"),
+        "{wrong}"
+    );
 }
 
 /// Numbers that are none, and numbers that cannot be squared, are refused with their frame.
@@ -419,6 +432,8 @@ fn features_that_are_none_are_refused() {
     };
     assert!(told(1, f32::NAN).starts_with("Frame 17: expected finite numbers for pelvis"));
     let elbow = 4 + 3 * 17;
-    assert!(told(elbow, f32::INFINITY).starts_with("Frame 17: expected finite numbers for left_elbow"));
+    assert!(
+        told(elbow, f32::INFINITY).starts_with("Frame 17: expected finite numbers for left_elbow")
+    );
     assert!(told(elbow, 3e30).starts_with("Frame 17: the posed spheres are too far away"));
 }
