@@ -9,6 +9,8 @@ use crate::body_choice::BodyArguments;
 use crate::convert::arguments::ConvertArguments;
 use crate::data::arguments::DataVerb;
 #[cfg(feature = "learn")]
+use crate::evaluate::arguments::EvaluateArguments;
+#[cfg(feature = "learn")]
 use crate::generate::arguments::GenerateArguments;
 use crate::inspect::arguments::InspectArguments;
 use crate::proxy::arguments::ProxyVerb;
@@ -66,6 +68,10 @@ pub(crate) enum Verb {
     #[cfg(feature = "learn")]
     #[command(subcommand)]
     Train(TrainVerb),
+    /// Evaluate networks that generate motion by the published protocol, or by the labels of the
+    /// data: the paper's table, with intervals.
+    #[cfg(feature = "learn")]
+    Evaluate(Box<EvaluateArguments>),
     /// Print a completion script for a shell.
     Completions {
         /// The shell.

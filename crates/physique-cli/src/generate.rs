@@ -149,7 +149,8 @@ fn sample(
     Ok(motions)
 }
 
-fn sampling(arguments: &SamplingArguments) -> Sampling {
+/// How motions are sampled, by the flags.
+pub(crate) fn sampling(arguments: &SamplingArguments) -> Sampling {
     Sampling {
         guidance: arguments.guidance,
         method: match arguments.ddim {

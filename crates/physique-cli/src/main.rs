@@ -6,6 +6,8 @@ mod body_choice;
 mod convert;
 mod data;
 mod demo;
+#[cfg(feature = "learn")]
+mod evaluate;
 mod exclude;
 mod exit;
 mod files;
@@ -57,6 +59,8 @@ fn main() -> ExitCode {
         Verb::Data(verb) => data::run(verb),
         #[cfg(feature = "learn")]
         Verb::Generate(arguments) => generate::run(arguments),
+        #[cfg(feature = "learn")]
+        Verb::Evaluate(arguments) => evaluate::run(arguments),
         #[cfg(feature = "learn")]
         Verb::Train(verb) => train::run(verb),
         Verb::Completions { shell } => {

@@ -1,6 +1,7 @@
 //! `physique train`: networks that generate motions.
 
 pub(crate) mod arguments;
+mod evaluator;
 mod mdm;
 mod plan;
 mod samples;
@@ -14,5 +15,6 @@ use arguments::TrainVerb;
 pub(crate) fn run(verb: &TrainVerb) -> Result<Exit> {
     match verb {
         TrainVerb::Mdm(arguments) => mdm::run(arguments),
+        TrainVerb::Evaluator(arguments) => evaluator::run(arguments),
     }
 }

@@ -22,6 +22,9 @@ pub enum Error {
     /// A data file that cannot be used.
     #[error(transparent)]
     Data(Box<physique_data::Error>),
+    /// A motion that cannot be scored.
+    #[error(transparent)]
+    Score(Box<physique::Error>),
     /// A file that is broken, or that holds more than data.
     #[error("{file}: {problem}")]
     Content {
@@ -38,6 +41,16 @@ pub enum Error {
         /// Where in the file.
         place: String,
         /// What the format demands.
+        expected: String,
+        /// What the file holds.
+        found: String,
+    },
+    /// Word vectors that cannot be used.
+    #[error("Word vectors {file}: expected {expected}, found {found}.")]
+    Words {
+        /// The file.
+        file: PathBuf,
+        /// What was expected.
         expected: String,
         /// What the file holds.
         found: String,
@@ -114,15 +127,21 @@ impl From<physique_motion::Error> for Error {
     }
 }
 
+impl From<physique_data::Error> for Error {
+    fn from(error: physique_data::Error) -> Self {
+        Self::Data(Box::new(error))
+    }
+}
+
 impl From<physique_text::Error> for Error {
     fn from(error: physique_text::Error) -> Self {
         Self::Text(Box::new(error))
     }
 }
 
-impl From<physique_data::Error> for Error {
-    fn from(error: physique_data::Error) -> Self {
-        Self::Data(Box::new(error))
+impl From<physique::Error> for Error {
+    fn from(error: physique::Error) -> Self {
+        Self::Score(Box::new(error))
     }
 }
 

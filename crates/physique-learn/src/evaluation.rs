@@ -11,20 +11,43 @@
 //! | diversity | how far motions are from each other | [`diversity`] |
 //! | multimodality | how far motions of one caption are from each other | [`multimodality`] |
 //! | interval | how sure the mean of the repetitions is | [`Interval`] |
+//!
+//! [`EvaluationProtocol`] says what is compared with what, by any [`PairEvaluator`]: the published one
+//! ([`PublishedEvaluator`]), or our own for other data ([`sentence`]), for the motions of any
+//! [`MotionGenerator`]. [`judge`] asks a plainer question: is it what was asked for?
 
 mod diversity;
 mod evaluator;
 mod frechet;
+mod generator;
 mod interval;
+pub mod judge;
+mod motion_side;
 mod networks;
 mod numpy_random;
+mod pair_evaluator;
 mod points;
+mod protocol;
+mod published;
 mod retrieval;
+pub mod sentence;
+mod text_to_motion;
+mod words;
 
 pub use diversity::{diversity, multimodality};
 pub use evaluator::{CaptionWords, Evaluator};
 pub use frechet::{Moments, frechet_distance};
+pub use generator::{MotionGenerator, Prompt};
 pub use interval::Interval;
+pub use networks::EvaluatorSizes;
 pub use numpy_random::NumpyRandom;
+pub use pair_evaluator::{CaptionReading, PairEvaluator};
 pub use points::Points;
+pub use protocol::{
+    EvaluationProtocol, EvaluationRow, MultimodalityOptions, ProtocolOptions, RepetitionMeasures,
+    SelfIntersectionMeter,
+};
+pub use published::PublishedEvaluator;
 pub use retrieval::{RETRIEVAL_BATCH, Retrieval};
+pub use text_to_motion::TextToMotionGenerator;
+pub use words::{WordLimits, WordVectors};

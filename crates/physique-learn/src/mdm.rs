@@ -20,7 +20,7 @@ mod training;
 pub use condition::Condition;
 pub use config::{Architecture, ConditionKind, MdmConfig};
 pub use folder::{MdmDescription, MdmFolder};
-pub use generate::{GenerateRequest, generate};
+pub use generate::{GenerateRequest, generate, generate_whole};
 pub use network::{Mdm, MdmQuery};
 pub use plan::{MdmPlan, PLANS, WindowPlan};
 pub use published::{PublishedArguments, from_parameters, parameters_of, read_published};

@@ -9,6 +9,28 @@ pub(crate) enum TrainVerb {
     /// Train a motion diffusion model (MDM, Tevet et al. 2023) on a data file; a run that was
     /// stopped or killed goes on where it was.
     Mdm(Box<MdmArguments>),
+    /// Train an evaluator for a data file that has no published one: `physique evaluate` compares
+    /// motions and captions by it. Some minutes on a core.
+    Evaluator(EvaluatorArguments),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct EvaluatorArguments {
+    /// Data file, of `physique data build`.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) data: PathBuf,
+    /// Folder of the evaluator; the run is kept in `run` below it, and goes on if it was stopped.
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: PathBuf,
+    /// Steps of the optimiser [default: 3000].
+    #[arg(long, value_name = "N")]
+    pub(crate) steps: Option<u64>,
+    /// Pairs of a motion and a caption in a step [default: 32].
+    #[arg(long, value_name = "N")]
+    pub(crate) batch: Option<usize>,
+    /// What all random numbers depend on [default: 10].
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
 }
 
 #[derive(Debug, Args)]

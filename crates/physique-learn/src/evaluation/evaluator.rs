@@ -2,31 +2,25 @@
 
 use std::path::Path;
 
-use burn::tensor::{Device, Tensor};
+use burn::tensor::Device;
 
 use super::Points;
+use super::motion_side::{MotionSide, points};
 use super::networks::{
-    MOVEMENT_NAMES, MotionEncoder, MovementEncoder, PARTS_OF_SPEECH, TEXT_NAMES, TextEncoder, WORD,
+    EvaluatorSizes, MOVEMENT_NAMES, PARTS_OF_SPEECH, TEXT_NAMES, TextEncoder, WORD,
 };
 use crate::Error;
 use crate::checkpoint::{CheckpointLimits, TorchCheckpoint};
-use crate::layers::Initialiser;
+use crate::layers::{Dropout, Initialiser};
 use crate::parameters::Parameters;
 use crate::tensors::{numbers, tensor};
-
-/// Frames that one step of the movement encoder stands for.
-const FRAMES_A_STEP: usize = 4;
-/// Columns at the end of a row, contacts of the feet, that the networks do not see.
-const UNSEEN: usize = 4;
 
 /// The published evaluator: embeds captions and motions as points of 512 numbers, matching ones
 /// close to each other.
 #[derive(Clone, Debug)]
 pub struct Evaluator {
-    movement: MovementEncoder,
     text: TextEncoder,
-    motion: MotionEncoder,
-    columns: usize,
+    motions: MotionSide,
     device: Device,
 }
 
@@ -49,15 +43,11 @@ impl Evaluator {
     /// # Errors
     /// [`Error::Setting`] for fewer columns than the networks pass over.
     pub fn new(columns: usize, seed: u64, device: &Device) -> Result<Self, Error> {
-        if columns <= UNSEEN {
-            return Err(Error::setting("columns", "more than 4 features", columns));
-        }
+        let sizes = EvaluatorSizes::default();
         let initialiser = &mut Initialiser::new(seed, device);
         Ok(Self {
-            movement: MovementEncoder::new(columns - UNSEEN, initialiser),
-            text: TextEncoder::new(initialiser),
-            motion: MotionEncoder::new(initialiser),
-            columns,
+            text: TextEncoder::new(sizes, initialiser),
+            motions: MotionSide::new(columns, sizes, initialiser)?,
             device: device.clone(),
         })
     }
@@ -90,10 +80,22 @@ impl Evaluator {
     /// As [`Evaluator::read`].
     pub fn with_parameters(self, parameters: [Parameters; 3]) -> Result<Self, Error> {
         let [movement, text, motion] = parameters;
+        let MotionSide {
+            movement_encoder,
+            motion_encoder,
+            ..
+        } = self.motions.clone();
         Ok(Self {
-            movement: movement.load(self.movement, "the movement encoder", MOVEMENT_NAMES)?,
+            motions: MotionSide {
+                movement_encoder: movement.load(
+                    movement_encoder,
+                    "the movement encoder",
+                    MOVEMENT_NAMES,
+                )?,
+                motion_encoder: motion.load(motion_encoder, "the motion encoder", TEXT_NAMES)?,
+                ..self.motions
+            },
             text: text.load(self.text, "the text encoder", TEXT_NAMES)?,
-            motion: motion.load(self.motion, "the motion encoder", TEXT_NAMES)?,
             ..self
         })
     }
@@ -104,10 +106,19 @@ impl Evaluator {
     /// [`Error::Device`] where the numbers cannot be fetched.
     pub fn parameters(&self) -> Result<[Parameters; 3], Error> {
         Ok([
-            Parameters::of(&self.movement, "movement_encoder", MOVEMENT_NAMES)?,
+            Parameters::of(
+                &self.motions.movement_encoder,
+                "movement_encoder",
+                MOVEMENT_NAMES,
+            )?,
             Parameters::of(&self.text, "text_encoder", TEXT_NAMES)?,
-            Parameters::of(&self.motion, "motion_encoder", TEXT_NAMES)?,
+            Parameters::of(&self.motions.motion_encoder, "motion_encoder", TEXT_NAMES)?,
         ])
+    }
+
+    /// Features a frame.
+    pub const fn columns(&self) -> usize {
+        self.motions.columns
     }
 
     /// What the motion encoder sees: `[motions][frames / 4][512]` numbers of movement.
@@ -115,7 +126,11 @@ impl Evaluator {
     /// # Errors
     /// As [`Evaluator::embed_motions`].
     pub fn movements(&self, motions: &[f32], frames: usize) -> Result<Vec<f32>, Error> {
-        numbers(self.movement_tensor(motions, frames)?)
+        let dropout = Dropout::none();
+        numbers(
+            self.motions
+                .movement(motions, frames, &self.device, &dropout)?,
+        )
     }
 
     /// Embeds motions `[motions][frames][columns]`, normalised by the *evaluator's* statistics and
@@ -130,22 +145,11 @@ impl Evaluator {
         frames: usize,
         lengths: &[usize],
     ) -> Result<Points, Error> {
-        let movement = self.movement_tensor(motions, frames)?;
-        let [batch, steps, _] = movement.dims();
-        if lengths.len() != batch {
-            let expected = format!("{batch}, one a motion");
-            return Err(Error::input("Lengths", expected, lengths.len()));
-        }
-        let possible = FRAMES_A_STEP..=steps * FRAMES_A_STEP;
-        if let Some(length) = lengths.iter().find(|length| !possible.contains(length)) {
-            let expected = format!("{} to {} frames", possible.start(), possible.end());
-            return Err(Error::input("Length of a motion", expected, length));
-        }
-        let steps: Vec<usize> = lengths
-            .iter()
-            .map(|length| length / FRAMES_A_STEP)
-            .collect();
-        points(self.motion.forward(movement, &steps))
+        let dropout = Dropout::none();
+        let embeddings = self
+            .motions
+            .forward(motions, frames, lengths, &self.device, &dropout)?;
+        points(embeddings)
     }
 
     /// Embeds captions.
@@ -187,23 +191,4 @@ impl Evaluator {
         );
         points(self.text.forward(vectors, parts, &captions.lengths))
     }
-
-    fn movement_tensor(&self, motions: &[f32], frames: usize) -> Result<Tensor<3>, Error> {
-        let motion = frames * self.columns;
-        if frames < FRAMES_A_STEP || motions.is_empty() || !motions.len().is_multiple_of(motion) {
-            let expected = format!("motions of {frames} x {} numbers", self.columns);
-            return Err(Error::input("Motions", expected, motions.len()));
-        }
-        let shape = [motions.len() / motion, frames, self.columns];
-        let motions = tensor(motions.to_vec(), shape, &self.device);
-        Ok(self
-            .movement
-            .forward(motions.narrow(2, 0, self.columns - UNSEEN)))
-    }
-}
-
-fn points(embeddings: Tensor<2>) -> Result<Points, Error> {
-    let width = embeddings.dims()[1];
-    let values = numbers(embeddings)?.into_iter().map(f64::from);
-    Points::new(width, values.collect())
 }

@@ -42,6 +42,26 @@ pub fn generate(
     network: &Mdm,
     sampler: &Sampler,
     request: GenerateRequest<'_>,
+    observe: impl FnMut(usize),
+) -> Result<Vec<Vec<f32>>, Error> {
+    let columns = network.config().columns;
+    let mut motions = generate_whole(network, sampler, request, 0, observe)?;
+    for (motion, length) in motions.iter_mut().zip(request.lengths) {
+        motion.truncate(length * columns);
+    }
+    Ok(motions)
+}
+
+/// As [`generate`], with at least so many frames, and with what lies behind each motion's length: the
+/// published evaluation samples those of the data set's longest window, and sees some of them.
+///
+/// # Errors
+/// As [`generate`].
+pub fn generate_whole(
+    network: &Mdm,
+    sampler: &Sampler,
+    request: GenerateRequest<'_>,
+    frames: usize,
     mut observe: impl FnMut(usize),
 ) -> Result<Vec<Vec<f32>>, Error> {
     let GenerateRequest {
@@ -58,7 +78,8 @@ pub fn generate(
     }
     let config = network.config();
     let longest = lengths.iter().copied().max().unwrap_or(0);
-    let frames = longest.next_multiple_of(config.frames_per_token);
+    let frames = longest.max(frames);
+    let frames = frames.next_multiple_of(config.frames_per_token);
     let columns = config.columns;
     let noise = NoiseStreams::new(seeds, frames, columns, &network.device());
     let unconditioned = vec![false; lengths.len()];
@@ -91,8 +112,5 @@ pub fn generate(
     })?;
     let motions = numbers(motions)?;
     let motions = motions.chunks_exact((frames * columns).max(1));
-    let cut = motions.zip(lengths);
-    Ok(cut
-        .map(|(motion, length)| motion[..length * columns].to_vec())
-        .collect())
+    Ok(motions.map(<[f32]>::to_vec).collect())
 }

@@ -5,7 +5,7 @@ use physique_motion::FrameRate;
 use physique_motion::features::MotionFeatures;
 use physique_text::TextEncoder;
 
-use super::{Condition, ConditionKind, GenerateRequest, MdmFolder, generate};
+use super::{Condition, ConditionKind, GenerateRequest, MdmFolder, generate_whole};
 use crate::Error;
 use crate::diffusion::{BatchEdit, Edit, GuideWeights, Method, Sampler, Schedule};
 use crate::tensors::tensor;
@@ -142,6 +142,37 @@ impl TextToMotion {
         known: Option<&KnownMotion>,
         observe: impl FnMut(usize),
     ) -> Result<Vec<MotionFeatures>, Error> {
+        let mut motions = self.sample(prompts, sampling, known, 0, observe)?;
+        for (motion, prompt) in motions.iter_mut().zip(prompts) {
+            motion.truncate(prompt.frames * self.folder.statistics.mean().len());
+        }
+        self.features(motions)
+    }
+
+    /// As [`TextToMotion::generate`], with at least so many frames, and with what lies behind each
+    /// motion's length: see [`generate_whole`].
+    ///
+    /// # Errors
+    /// As [`TextToMotion::generate`].
+    pub fn generate_whole(
+        &self,
+        prompts: &[Prompt<'_>],
+        sampling: Sampling,
+        frames: usize,
+    ) -> Result<Vec<MotionFeatures>, Error> {
+        let motions = self.sample(prompts, sampling, None, frames, |_| ())?;
+        self.features(motions)
+    }
+
+    /// Normalised motions with what lies behind their lengths.
+    fn sample(
+        &self,
+        prompts: &[Prompt<'_>],
+        sampling: Sampling,
+        known: Option<&KnownMotion>,
+        frames: usize,
+        observe: impl FnMut(usize),
+    ) -> Result<Vec<Vec<f32>>, Error> {
         let device = self.folder.network.device();
         let condition = match (&self.prompts, self.folder.network.config().condition) {
             (Some(encoder), _) => {
@@ -177,7 +208,10 @@ impl TextToMotion {
             guides: &guides,
         };
         let sampler = Sampler::new(schedule, sampling.method);
-        let motions = generate(&self.folder.network, &sampler, request, observe)?;
+        generate_whole(&self.folder.network, &sampler, request, frames, observe)
+    }
+
+    fn features(&self, motions: Vec<Vec<f32>>) -> Result<Vec<MotionFeatures>, Error> {
         let statistics = &self.folder.statistics;
         let motions = motions.into_iter().map(|mut motion| {
             statistics.denormalise(&mut motion);
@@ -186,6 +220,7 @@ impl TextToMotion {
         });
         motions.collect()
     }
+
     /// The edit of a batch, padded to whole tokens of the network.
     fn edit(
         &self,

@@ -1,0 +1,62 @@
+//! Networks as generators.
+
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+use physique_data::Dataset;
+use physique_learn::checkpoint::CheckpointLimits;
+use physique_learn::evaluation::TextToMotionGenerator;
+use physique_learn::mdm::{MdmFolder, TextToMotion};
+
+use super::arguments::EvaluateArguments;
+use crate::generate::sampling;
+use crate::text_encoder;
+
+/// The networks of the flags, in their order.
+pub(super) fn open_all(
+    arguments: &EvaluateArguments,
+    dataset: &Dataset,
+) -> Result<Vec<TextToMotionGenerator>> {
+    let sampling = sampling(&arguments.sampling);
+    let models = arguments.models.iter();
+    models
+        .map(|folder| {
+            let model = open(folder, dataset)?;
+            let name = name(folder, arguments);
+            let frames = dataset.index().longest_window;
+            Ok(TextToMotionGenerator::new(model, sampling, name, frames))
+        })
+        .collect()
+}
+
+fn open(folder: &Path, dataset: &Dataset) -> Result<TextToMotion> {
+    let device = physique_learn::device();
+    let model = MdmFolder::read(folder, &CheckpointLimits::default(), &device)?;
+    let skeleton = model.statistics.skeleton();
+    if skeleton != dataset.skeleton() {
+        bail!(
+            "{}: makes motions of {skeleton:?}, the data set has those of {:?}",
+            folder.display(),
+            dataset.skeleton()
+        );
+    }
+    let encoder = match model.description.text_encoder.as_str() {
+        "" => None,
+        "all-MiniLM-L6-v2" => text_encoder::named("minilm")?,
+        other => bail!(
+            "{}: reads captions by {other}, which is not embedded",
+            folder.display()
+        ),
+    };
+    TextToMotion::new(model, encoder).with_context(|| folder.display().to_string())
+}
+
+/// The folder's name, or as much of its path as tells it from the others.
+fn name(folder: &Path, arguments: &EvaluateArguments) -> String {
+    let last = |path: &Path| path.file_name().map(|name| name.to_owned());
+    let same = |other: &&std::path::PathBuf| last(other) == last(folder);
+    match arguments.models.iter().filter(same).count() {
+        1 => last(folder).map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
+        _ => folder.display().to_string(),
+    }
+}

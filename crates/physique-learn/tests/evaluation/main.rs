@@ -1,0 +1,7 @@
+//! The evaluation of generated motions, on made-up data.
+
+mod judge;
+mod protocol;
+mod sentence;
+mod support;
+mod words;
