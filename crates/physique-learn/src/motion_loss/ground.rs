@@ -18,7 +18,7 @@ pub struct GroundLoss {
 }
 
 impl GroundLoss {
-    /// Height of resting toes that is free, in metres: real ones are within it in 95 of 100 frames.
+    /// Height of resting toes that is free, in metres.
     pub const REST: f64 = 0.05;
 
     /// A loss for features that are normalised by `statistics`.
