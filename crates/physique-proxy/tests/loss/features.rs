@@ -139,8 +139,13 @@ fn value_and_gradient_are_those_of_the_slow_layer() {
                         most = most.max(expected.abs());
                         worst = worst.max((expected - found).abs());
                     }
-                    // A path moves nothing: what is left there is rounding of all others.
-                    let size = most.max(0.1 * all);
+                    // A path moves nothing: what is left there is rounding of all others, and a
+                    // turn moves joints by their distance.
+                    let unit = match block.start {
+                        0 => skeleton.metres_per_unit().recip(),
+                        _ => 1.0,
+                    };
+                    let size = most.max(0.1 * all * unit);
                     assert!(
                         worst < 1e-4 * size,
                         "{skeleton:?} {rule:?} {backend} {block:?}: {worst} of {most}"
