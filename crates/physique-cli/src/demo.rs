@@ -35,6 +35,8 @@ pub(crate) fn run(arguments: &DemoArguments) -> Result<Exit> {
         });
         draw(&scorer, clip.name, clip.summary, &loaded.motion, arguments)?;
     }
+    #[cfg(feature = "learn")]
+    motions.push(generated(&scorer, arguments)?);
     let report = Report {
         head: ReportHead::new(scorer.options(), scorer.body()),
         motions,
@@ -43,8 +45,12 @@ pub(crate) fn run(arguments: &DemoArguments) -> Result<Exit> {
     write_file(&folder.join("scores.json"), json.as_bytes())?;
 
     print!("{}", table(&report, None));
+    let generated = match cfg!(feature = "learn") {
+        true => "; the last one is generated",
+        false => "",
+    };
     println!(
-        "Real motion, embedded. Scores and pictures are in {}/ ({:.1} s).",
+        "Real motion, embedded{generated}. Scores and pictures are in {}/ ({:.1} s).",
         folder.display(),
         start.elapsed().as_secs_f64()
     );
@@ -52,6 +58,34 @@ pub(crate) fn run(arguments: &DemoArguments) -> Result<Exit> {
         "Next: physique score your-motion.bvh, and physique view your-motion.bvh --png sheet.png"
     );
     Ok(Exit::Done)
+}
+
+/// A motion of the embedded network, which knows some words.
+#[cfg(feature = "learn")]
+fn generated(scorer: &Scorer, arguments: &DemoArguments) -> Result<MotionReport> {
+    use physique_learn::mdm::{Prompt, Sampling};
+
+    const NAME: &str = "generated";
+    const TEXT: &str = "a person walks";
+    let network = crate::generate::model::embedded()?;
+    let prompt = Prompt {
+        text: TEXT,
+        frames: 80,
+        seed: 0,
+    };
+    let made = network.generate(&[prompt], Sampling::default(), None, |_| ())?;
+    let features = made.first().context("no motion was generated")?;
+    let loaded = crate::generate::motion::on_body(features, scorer.body())?;
+    draw(scorer, NAME, TEXT, &loaded.motion, arguments)?;
+    Ok(MotionReport {
+        file: NAME.to_owned(),
+        name: NAME.to_owned(),
+        text: Some(TEXT.to_owned()),
+        score: Some(scorer.score(&loaded.motion)?),
+        unscorable: None,
+        mapping: None,
+        notes: loaded.notes,
+    })
 }
 
 fn draw(

@@ -2,7 +2,7 @@
 
 pub(crate) mod arguments;
 mod edit;
-mod model;
+pub(crate) mod model;
 pub(crate) mod motion;
 mod output;
 

@@ -3,6 +3,7 @@
 pub(crate) mod arguments;
 mod evaluator;
 mod mdm;
+mod pack;
 mod plan;
 mod samples;
 mod watch;
@@ -16,5 +17,6 @@ pub(crate) fn run(verb: &TrainVerb) -> Result<Exit> {
     match verb {
         TrainVerb::Mdm(arguments) => mdm::run(arguments),
         TrainVerb::Evaluator(arguments) => evaluator::run(arguments),
+        TrainVerb::Pack(arguments) => pack::run(arguments),
     }
 }

@@ -126,6 +126,19 @@ fn a_run_leaves_a_network_that_generates() {
     succeeds(&[&generate[..], &to, &["--seed", "1"]].concat());
     assert_ne!(fs::read(&motion).unwrap(), first, "another seed");
 
+    // In 16 bits the network is half as large, and does nearly the same.
+    let packed = at("packed");
+    succeeds(&["train", "pack", path(&model), "-o", path(&packed)]);
+    let size = |folder: &Path| {
+        fs::metadata(folder.join("model.safetensors"))
+            .unwrap()
+            .len()
+    };
+    assert!(size(&packed) < size(&model) * 6 / 10);
+    assert!(packed.join("CARD.md").exists());
+    let from_packed = ["--model", path(&packed), "-o", path(&at("packed.glb"))];
+    succeeds(&[&["generate", "a person walks"], &from_packed[..]].concat());
+
     // Many motions go into a folder; legs of another motion stay.
     let many = at("many");
     let to = [

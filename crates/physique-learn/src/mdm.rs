@@ -7,6 +7,8 @@
 
 mod condition;
 mod config;
+#[cfg(feature = "embedded")]
+mod embedded;
 mod folder;
 mod generate;
 pub mod losses;

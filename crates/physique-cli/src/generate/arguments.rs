@@ -56,9 +56,9 @@ pub(crate) struct GenerateArguments {
 #[command(next_help_heading = "Network")]
 pub(crate) struct ModelArguments {
     /// Folder of a network of `physique train`, or a published checkpoint (.pt) with args.json
-    /// beside it.
+    /// beside it [default: the embedded network].
     #[arg(long, value_name = "FOLDER|FILE")]
-    pub(crate) model: PathBuf,
+    pub(crate) model: Option<PathBuf>,
     /// Text encoder: `minilm`, or a folder in the layout of Hugging Face [default: `minilm`, where
     /// the network was trained with it].
     #[arg(long, value_name = "NAME|FOLDER")]
@@ -114,8 +114,9 @@ pub(crate) enum KeptPart {
 
 const EXAMPLES: &str = "\
 Examples:
-  physique generate \"a tired person walks\" -o out.glb --model run/model
-  physique generate \"a person runs\" \"a person waves\" -n 5 -o motions/ --png --model run/model
-  physique generate \"a person waves\" --from walk.bvh --keep legs -o out.bvh --model run/model
+  physique generate \"a tired person walks\" -o out.glb
+  physique generate \"a person runs\" \"a person waves\" -n 5 -o motions/ --png
+  physique generate \"a person waves\" --from walk.bvh --keep legs -o out.bvh
+  physique generate \"a person walks\" -o out.bvh --model run/model
   physique generate \"a person kicks\" -o out.glb --model humanml/model000475000.pt \\
     --mean Mean.npy --std Std.npy --text clip-vit-base-patch32/";

@@ -1,6 +1,7 @@
 //! Which network generates.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use physique::motion::Limits;
@@ -17,12 +18,14 @@ const EMBEDDED: &str = "all-MiniLM-L6-v2";
 
 /// Opens the network of the flags with its text encoder.
 pub(super) fn open(arguments: &ModelArguments, read: &ReadArguments) -> Result<TextToMotion> {
-    let path = &arguments.model;
+    let Some(path) = &arguments.model else {
+        return embedded();
+    };
     let limits = CheckpointLimits::default();
     let device = physique_learn::device();
     let folder = match path.is_dir() {
         true => MdmFolder::read(path, &limits, &device)?,
-        false => published(arguments, read, &limits)?,
+        false => published(path, read, &limits)?,
     };
     let wanted = folder.description.text_encoder.as_str();
     let encoder = match &arguments.text {
@@ -37,13 +40,14 @@ pub(super) fn open(arguments: &ModelArguments, read: &ReadArguments) -> Result<T
     TextToMotion::new(folder, encoder).with_context(|| path.display().to_string())
 }
 
+/// The embedded network.
+pub(crate) fn embedded() -> Result<TextToMotion> {
+    let folder = MdmFolder::embedded(&physique_learn::device())?;
+    Ok(TextToMotion::new(folder, text_encoder::named("minilm")?)?)
+}
+
 /// A published checkpoint with the statistics of its data set.
-fn published(
-    arguments: &ModelArguments,
-    read: &ReadArguments,
-    limits: &CheckpointLimits,
-) -> Result<MdmFolder> {
-    let path = &arguments.model;
+fn published(path: &Path, read: &ReadArguments, limits: &CheckpointLimits) -> Result<MdmFolder> {
     let (Some(mean), Some(std)) = (&read.mean, &read.std) else {
         bail!(
             "{}: a published checkpoint needs the statistics of its data set: --mean Mean.npy --std Std.npy",

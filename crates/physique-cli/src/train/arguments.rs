@@ -12,6 +12,8 @@ pub(crate) enum TrainVerb {
     /// Train an evaluator for a data file that has no published one: `physique evaluate` compares
     /// motions and captions by it. Some minutes on a core.
     Evaluator(EvaluatorArguments),
+    /// Write a trained network again in 16 bits a number: half the space, the same motions to the eye.
+    Pack(PackArguments),
 }
 
 #[derive(Debug, Args)]
@@ -31,6 +33,16 @@ pub(crate) struct EvaluatorArguments {
     /// What all random numbers depend on [default: 10].
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PackArguments {
+    /// Folder of the network: `model` of a run.
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: PathBuf,
+    /// Folder for the packed network.
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: PathBuf,
 }
 
 #[derive(Debug, Args)]
