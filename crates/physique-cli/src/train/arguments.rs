@@ -85,6 +85,9 @@ pub(crate) struct ChangeArguments {
     /// What all random numbers depend on.
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
+    /// Weight of the self-intersection loss: 0.01 makes MDM a SIA-MDM.
+    #[arg(long, value_name = "WEIGHT")]
+    pub(crate) self_intersection: Option<f64>,
     /// Steps from one checkpoint to the next.
     #[arg(long, value_name = "N")]
     pub(crate) save_every: Option<u64>,

@@ -73,5 +73,9 @@ fn change(plan: &mut MdmPlan, by: &ChangeArguments) {
     set(&mut plan.training.batch, by.batch);
     set(&mut plan.run.optimiser.rate, by.rate);
     set(&mut plan.run.seed, by.seed);
+    set(
+        &mut plan.training.self_intersection_weight,
+        by.self_intersection,
+    );
     set(&mut plan.run.save_every, by.save_every);
 }
