@@ -79,7 +79,7 @@ fn main() {
         self_intersection_weight: weight,
         ..MdmTraining::default()
     };
-    let task = MdmTask::new(source, &statistics, training, &device).expect("it fits");
+    let task = MdmTask::new(source, &statistics, training).expect("it fits");
     let network = Mdm::new(&case.network, 1, &device).expect("possible");
     let config = TrainerConfig {
         // One more, which is not counted.

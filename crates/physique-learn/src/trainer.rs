@@ -11,6 +11,7 @@
 //! | the loop | [`Trainer`] |
 //! | the optimiser | [`AdamW`] |
 //! | where motions come from | [`MotionSource`] |
+//! | several devices | [`Trainer::on_devices`], [`Part`] |
 
 mod adamw;
 mod batch;
@@ -18,10 +19,12 @@ mod config;
 mod events;
 mod gradient;
 mod log;
+mod parallel;
 mod run;
 mod state;
 
 pub use adamw::{AdamW, AdamWConfig};
 pub use batch::{BatchCondition, MotionBatch, MotionSource};
 pub use config::{RateSchedule, TrainerConfig};
+pub use parallel::Part;
 pub use run::{Loss, StepReport, Task, Trainer};

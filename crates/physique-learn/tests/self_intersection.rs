@@ -206,7 +206,7 @@ fn task(weight: f64, device: &Device) -> MdmTask<Motions> {
         self_intersection_weight: weight,
         ..MdmTraining::default()
     };
-    MdmTask::new(Motions { features }, &statistics, training, device).expect("it fits")
+    MdmTask::new(Motions { features }, &statistics, training).expect("it fits")
 }
 
 /// The total is the squared error and the weighted loss, whose gradient reaches the network.
@@ -241,7 +241,7 @@ fn a_weight_that_is_none_is_refused() {
             ..MdmTraining::default()
         };
         let features = features.clone();
-        let refused = MdmTask::new(Motions { features }, &statistics, training, &Device::flex());
+        let refused = MdmTask::new(Motions { features }, &statistics, training);
         let told = refused.expect_err("no weight").to_string();
         assert!(told.contains("self_intersection_weight"), "{told}");
     }

@@ -83,6 +83,15 @@ fn config(steps: u64) -> TrainerConfig {
 }
 
 fn trainer(folder: &Path, config: TrainerConfig, broken: Option<u64>) -> Trainer<MdmTask<Waves>> {
+    with_dropout(0.1, folder, config, broken)
+}
+
+fn with_dropout(
+    dropout: f64,
+    folder: &Path,
+    config: TrainerConfig,
+    broken: Option<u64>,
+) -> Trainer<MdmTask<Waves>> {
     let skeleton = FeatureSkeleton::HumanMl3d;
     let statistics = FeatureStatistics::new(skeleton, vec![0.0; COLUMNS], vec![1.0; COLUMNS]);
     let device = Device::flex().autodiff();
@@ -95,7 +104,7 @@ fn trainer(folder: &Path, config: TrainerConfig, broken: Option<u64>) -> Trainer
         ..MdmTraining::default()
     };
     let statistics = statistics.expect("possible");
-    let task = MdmTask::new(Waves { broken }, &statistics, training, &device);
+    let task = MdmTask::new(Waves { broken }, &statistics, training);
     let network = MdmConfig {
         width: 16,
         layers: 2,
@@ -106,6 +115,7 @@ fn trainer(folder: &Path, config: TrainerConfig, broken: Option<u64>) -> Trainer
         norm: NormPlace::Pre,
         condition_every_frame: true,
         frames_per_token: 2,
+        dropout,
         ..MdmConfig::default()
     };
     let network = Mdm::new(&network, 5, &device).expect("possible");
@@ -248,7 +258,7 @@ fn a_run_with_other_settings_is_refused() {
     let device = Device::flex().autodiff();
     let training = MdmTraining::default();
     let statistics = statistics.expect("possible");
-    let task = MdmTask::new(Waves { broken: None }, &statistics, training, &device);
+    let task = MdmTask::new(Waves { broken: None }, &statistics, training);
     let network = MdmConfig {
         condition: ConditionKind::Sentence { width: 2 },
         width: 16,
@@ -266,4 +276,50 @@ fn a_run_with_other_settings_is_refused() {
         told.contains("seed 4") && told.contains("found seed 3"),
         "{told}"
     );
+}
+
+/// Two and four parts of each batch, on copies of the network, with averaged gradients: the same run.
+#[test]
+fn a_batch_may_be_shared_among_devices() {
+    let run = |devices: usize| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let devices = vec![Device::flex().autodiff(); devices];
+        let trainer = with_dropout(0.0, folder.path(), config(4), None);
+        let mut trainer = trainer.on_devices(devices);
+        let mut reports = Vec::new();
+        let done = trainer.run(|report| {
+            reports.push((report.loss, report.gradient_norm, report.parts.clone()));
+            true
+        });
+        done.expect("finite");
+        reports
+    };
+    let alone = run(0);
+    assert_eq!(alone, run(1), "one device is no change, to the bit");
+    for devices in [2, 4] {
+        for ((loss, norm, parts), (shared, shared_norm, shared_parts)) in
+            alone.iter().zip(run(devices))
+        {
+            assert!((loss / shared - 1.0).abs() < 1e-5, "{loss} {shared}");
+            assert!(
+                (norm / shared_norm - 1.0).abs() < 1e-4,
+                "{norm} {shared_norm}"
+            );
+            for ((name, part), (_, shared)) in parts.iter().zip(shared_parts) {
+                assert!(
+                    (part / shared - 1.0).abs() < 1e-5,
+                    "{name}: {part} {shared}"
+                );
+            }
+        }
+    }
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let trainer = with_dropout(0.0, folder.path(), config(4), None);
+    let mut trainer = trainer.on_devices(vec![Device::flex().autodiff(); 3]);
+    let told = trainer
+        .run(|_| true)
+        .expect_err("4 motions for 3")
+        .to_string();
+    assert!(told.contains("a multiple of 3"), "{told}");
 }

@@ -130,7 +130,7 @@ fn train(
     let prompts = told.map(|told| &told.prompts);
     let source = CaptionedMotions::new(dataset, options, prompts)?;
     let device = physique_learn::device().autodiff();
-    let task = MdmTask::new(source, dataset.statistics(), plan.training.clone(), &device)?;
+    let task = MdmTask::new(source, dataset.statistics(), plan.training.clone())?;
     let network = Mdm::new(&plan.network, plan.run.seed, &device)?;
     let mut trainer = Trainer::open(task, network, plan.run.clone(), &arguments.output)?;
 

@@ -48,6 +48,13 @@ impl Dropout {
         }
     }
 
+    /// The same for a part of a batch that begins with this motion: other masks for other parts.
+    #[must_use]
+    pub const fn of_part(mut self, first: u64) -> Self {
+        self.drawn = Cell::new(first << 32);
+        self
+    }
+
     /// Drops numbers of a tensor.
     pub fn apply<const D: usize>(&self, values: Tensor<D>) -> Tensor<D> {
         if self.dropped == 0 {

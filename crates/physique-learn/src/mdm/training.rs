@@ -13,7 +13,7 @@ use crate::layers::Dropout;
 use crate::motion_loss::{GroundLoss, SelfIntersectionLoss, SlidingLoss, WeightedLoss};
 use crate::random::Random;
 use crate::tensors::tensor;
-use crate::trainer::{BatchCondition, Loss, MotionSource, Task};
+use crate::trainer::{BatchCondition, Loss, MotionBatch, MotionSource, Part, Task};
 
 /// Told apart from all other uses of a seed.
 const PURPOSE: u64 = 0x006D_646D_6D64;
@@ -124,7 +124,6 @@ pub struct MdmTask<S> {
     /// Deviations of joints' positions over those of their velocities.
     velocity_factor: f64,
     motion_losses: Vec<WeightedLoss>,
-    device: Device,
 }
 
 /// Motions of a step with noise, and what there is to know of them.
@@ -136,7 +135,7 @@ struct Noised {
 }
 
 impl<S: MotionSource> MdmTask<S> {
-    /// A task on a device, which must differentiate; `statistics` are those that the source's
+    /// A task for networks on a device that differentiates; `statistics` are those that the source's
     /// motions are normalised by.
     ///
     /// # Errors
@@ -146,7 +145,6 @@ impl<S: MotionSource> MdmTask<S> {
         source: S,
         statistics: &FeatureStatistics,
         training: MdmTraining,
-        device: &Device,
     ) -> Result<Self, Error> {
         training.check()?;
         let columns = statistics.mean().len();
@@ -163,7 +161,6 @@ impl<S: MotionSource> MdmTask<S> {
             motion_losses: training.motion_losses(statistics)?,
             training,
             source,
-            device: device.clone(),
         })
     }
 
@@ -176,19 +173,21 @@ impl<S: MotionSource> MdmTask<S> {
     }
 
     /// Draws a step of diffusion, noise, and whether the condition counts, for each motion: each
-    /// from a stream of its own.
-    fn noised(&self, features: Vec<f32>, shape: [usize; 3], path: [u64; 2]) -> Noised {
-        let [_, frames, columns] = shape;
+    /// from a stream of its own, by its number in the whole batch, which begins at `first`.
+    fn noised(&self, batch: &MotionBatch, first: usize, path: [u64; 2], device: &Device) -> Noised {
+        let (frames, columns) = (batch.frames, self.source.columns());
+        let shape = [batch.lengths.len(), frames, columns];
         let (mut steps, mut conditioned) = (Vec::new(), Vec::new());
-        let mut noise = vec![0.0; features.len()];
+        let mut noise = vec![0.0; batch.features.len()];
         for (motion, noise) in noise.chunks_exact_mut(frames * columns).enumerate() {
-            let mut random = Random::new(&[PURPOSE, path[0], path[1], motion as u64]);
+            let motion = (first + motion) as u64;
+            let mut random = Random::new(&[PURPOSE, path[0], path[1], motion]);
             steps.push(random.below(self.schedule.len()));
             conditioned.push(random.unit() >= self.training.unconditioned);
             random.fill_normal(noise);
         }
-        let clean = tensor(features, shape, &self.device);
-        let noise = tensor(noise, shape, &self.device);
+        let clean = tensor(batch.features.clone(), shape, device);
+        let noise = tensor(noise, shape, device);
         Noised {
             noisy: add_noise(&self.schedule, clean.clone(), &steps, noise),
             clean,
@@ -198,7 +197,7 @@ impl<S: MotionSource> MdmTask<S> {
     }
 
     /// `[1][1][columns]`: what columns weigh; `None` where all weigh 1.
-    fn column_weights(&self) -> Option<Tensor<3>> {
+    fn column_weights(&self, device: &Device) -> Option<Tensor<3>> {
         let weight = self.training.root_weight;
         if weight == 1.0 {
             return None;
@@ -206,24 +205,31 @@ impl<S: MotionSource> MdmTask<S> {
         let columns = self.source.columns();
         let mut weights = vec![1.0; columns];
         weights[..=self.layout.root_height].fill(weight as f32);
-        Some(tensor(weights, [1, 1, columns], &self.device))
+        Some(tensor(weights, [1, 1, columns], device))
     }
 }
 
-impl<S: MotionSource> Task for MdmTask<S> {
+impl<S: MotionSource + Sync> Task for MdmTask<S> {
     type Network = Mdm;
 
     fn loss(&self, network: &Mdm, seed: u64, step: u64) -> Result<Loss, Error> {
+        self.part(network, seed, step, Part::WHOLE)
+    }
+
+    fn part(&self, network: &Mdm, seed: u64, step: u64, part: Part) -> Result<Loss, Error> {
+        let device = network.device();
         let batch = self.source.batch(self.training.batch, seed, step)?;
         let columns = self.source.columns();
         batch.check(columns)?;
+        let range = part.range(batch.lengths.len())?;
+        let first = range.start;
+        let batch = batch.only(range, columns);
         let condition = match &batch.condition {
             BatchCondition::Nothing => Condition::Nothing,
-            BatchCondition::Text(embeddings) => Condition::text(embeddings, &self.device)?,
+            BatchCondition::Text(embeddings) => Condition::text(embeddings, &device)?,
             BatchCondition::Actions(actions) => Condition::Actions(actions.clone()),
         };
-        let shape = [batch.lengths.len(), batch.frames, columns];
-        let noised = self.noised(batch.features, shape, [seed, step]);
+        let noised = self.noised(&batch, first, [seed, step], &device);
         let query = MdmQuery {
             noisy: noised.noisy,
             steps: &noised.steps,
@@ -232,10 +238,11 @@ impl<S: MotionSource> Task for MdmTask<S> {
             lengths: Some(&batch.lengths),
         };
         let dropout = Dropout::training(network.config().dropout, seed, step);
+        let dropout = dropout.of_part(first as u64);
         let predicted = network.forward(query, &dropout)?;
 
         let mask = FrameMask::new(&batch.lengths, batch.frames, &noised.clean);
-        let weights = self.column_weights();
+        let weights = self.column_weights(&device);
         let error = squared_error(predicted.clone(), noised.clean.clone(), &mask, weights).mean();
         let mut parts = vec![("squared_error", error.clone())];
         let mut total = error;

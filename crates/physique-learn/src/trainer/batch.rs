@@ -1,5 +1,7 @@
 //! What a step of training sees.
 
+use std::ops::Range;
+
 use crate::Error;
 use crate::text::Embeddings;
 
@@ -41,6 +43,35 @@ pub trait MotionSource {
 }
 
 impl MotionBatch {
+    /// Only the motions of a range, with as much padding as they had.
+    pub(crate) fn only(self, range: Range<usize>, columns: usize) -> Self {
+        if range == (0..self.lengths.len()) {
+            return self;
+        }
+        let size = self.frames * columns;
+        let condition = match self.condition {
+            BatchCondition::Nothing => BatchCondition::Nothing,
+            BatchCondition::Actions(actions) => {
+                BatchCondition::Actions(actions[range.clone()].to_vec())
+            }
+            BatchCondition::Text(text) => {
+                let (marks, numbers) = (text.tokens, text.tokens * text.width);
+                BatchCondition::Text(Embeddings {
+                    batch: range.len(),
+                    values: text.values[range.start * numbers..range.end * numbers].to_vec(),
+                    padding: text.padding[range.start * marks..range.end * marks].to_vec(),
+                    ..text
+                })
+            }
+        };
+        Self {
+            frames: self.frames,
+            features: self.features[range.start * size..range.end * size].to_vec(),
+            lengths: self.lengths[range].to_vec(),
+            condition,
+        }
+    }
+
     /// Whether counts fit each other.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use burn::module::{Module, ModuleMapper, ModuleVisitor, Param};
-use burn::tensor::{Gradients, Tensor};
+use burn::tensor::{Device, Gradients, Tensor};
 
 /// Gradients of a network's parameters, flat, by the parameters' paths.
 pub(super) struct NamedGradients(pub(super) BTreeMap<String, Tensor<1>>);
@@ -28,6 +28,28 @@ impl NamedGradients {
             .values()
             .map(|gradient| gradient.clone().square().sum());
         squares.reduce(|sum, squares| sum + squares)
+    }
+
+    /// The same on another device, outside of any graph.
+    pub(super) fn on_device(self, device: &Device) -> Self {
+        let moved = self.0.into_iter();
+        Self(
+            moved
+                .map(|(name, by)| (name, by.to_device(device)))
+                .collect(),
+        )
+    }
+
+    /// The sum with other gradients of the same network.
+    pub(super) fn added(mut self, other: Self) -> Self {
+        for (name, by) in other.0 {
+            let sum = match self.0.remove(&name) {
+                Some(sum) => sum + by,
+                None => by,
+            };
+            self.0.insert(name, sum);
+        }
+        self
     }
 
     /// All gradients times a factor.

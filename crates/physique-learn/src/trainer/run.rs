@@ -4,16 +4,17 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use burn::module::Module;
-use burn::tensor::Tensor;
+use burn::tensor::{Device, Tensor};
 
-use super::gradient::{NamedGradients, tensors_of, update};
+use super::gradient::{tensors_of, update};
 use super::log::RunLog;
+use super::parallel::{Part, differentiate};
 use super::{AdamW, TrainerConfig, state};
 use crate::Error;
 use crate::tensors::numbers;
 
 /// What a trainer trains.
-pub trait Task {
+pub trait Task: Sync {
     /// The network.
     type Network: Module;
 
@@ -22,6 +23,24 @@ pub trait Task {
     /// # Errors
     /// Those of data and network.
     fn loss(&self, network: &Self::Network, seed: u64, step: u64) -> Result<Loss, Error>;
+
+    /// The loss of a part of the step's batch, for a network on one of several devices: the mean over
+    /// all parts is the step's loss, but for what is drawn for dropout.
+    ///
+    /// # Errors
+    /// As [`Task::loss`]; [`Error::Setting`] where a batch cannot be shared: by default, any.
+    fn part(
+        &self,
+        network: &Self::Network,
+        seed: u64,
+        step: u64,
+        part: Part,
+    ) -> Result<Loss, Error> {
+        match part {
+            Part::WHOLE => self.loss(network, seed, step),
+            Part { of, .. } => Err(Error::setting("devices", "1 for this task", of)),
+        }
+    }
 }
 
 /// A loss and what it is the sum of.
@@ -62,6 +81,8 @@ pub struct Trainer<T: Task> {
     average: Option<T::Network>,
     optimiser: AdamW,
     log: RunLog,
+    /// Where parts of a batch are differentiated; none: where the network is.
+    devices: Vec<Device>,
 }
 
 impl<T: Task> Trainer<T> {
@@ -86,6 +107,7 @@ impl<T: Task> Trainer<T> {
             average,
             optimiser: AdamW::new(config.optimiser),
             log: RunLog::new(folder)?,
+            devices: Vec::new(),
             network,
             config,
         };
@@ -94,6 +116,15 @@ impl<T: Task> Trainer<T> {
         }
         trainer.log.go_on_after(trainer.optimiser.steps)?;
         Ok(trainer)
+    }
+
+    /// Shares the batch of every step among devices, which must differentiate. Each gets a copy of
+    /// the network and as many motions; their gradients are averaged on the network's own device,
+    /// where the optimiser works. The same device may be given more than once.
+    #[must_use]
+    pub fn on_devices(mut self, devices: Vec<Device>) -> Self {
+        self.devices = devices;
+        self
     }
 
     /// What is trained, and how.
@@ -152,13 +183,13 @@ impl<T: Task> Trainer<T> {
                 found: value,
             })
         };
-        let loss = self.task.loss(&self.network, self.config.seed, done)?;
-        let parts = loss.parts.into_iter();
-        let parts = parts.map(|(name, part)| Ok((name, finite(name, scalar(part)?)?)));
-        let parts = parts.collect::<Result<Vec<_>, Error>>()?;
-        let value = finite("loss", scalar(loss.total.clone())?)?;
-
-        let mut gradients = NamedGradients::of(&self.network, loss.total.backward());
+        let seed = self.config.seed;
+        let found = differentiate(&self.task, &self.network, &self.devices, seed, done)?;
+        let mut gradients = found.gradients;
+        for (name, part) in &found.parts {
+            finite(name, *part)?;
+        }
+        let (parts, value) = (found.parts, finite("loss", found.loss)?);
         let squares = gradients.squares().map_or(Ok(0.0), scalar)?;
         let norm = finite("norm of the gradient", squares.sqrt())?;
         if let Some(most) = self.config.clip.filter(|&most| norm > most) {
@@ -215,7 +246,7 @@ impl<T: Task> Trainer<T> {
     }
 }
 
-fn scalar(tensor: Tensor<1>) -> Result<f64, Error> {
+pub(super) fn scalar(tensor: Tensor<1>) -> Result<f64, Error> {
     let found = numbers(tensor)?;
     Ok(found.first().copied().map_or(f64::NAN, f64::from))
 }
