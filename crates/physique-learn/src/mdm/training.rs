@@ -209,7 +209,7 @@ impl<S: MotionSource> MdmTask<S> {
     }
 }
 
-impl<S: MotionSource + Sync> Task for MdmTask<S> {
+impl<S: MotionSource> Task for MdmTask<S> {
     type Network = Mdm;
 
     fn loss(&self, network: &Mdm, seed: u64, step: u64) -> Result<Loss, Error> {

@@ -30,7 +30,7 @@ pub enum BatchCondition {
 }
 
 /// Where motions come from.
-pub trait MotionSource {
+pub trait MotionSource: Sync {
     /// Features a frame.
     fn columns(&self) -> usize;
 
