@@ -1,0 +1,74 @@
+//! The network inside the program.
+#![cfg(feature = "embedded")]
+
+use burn::tensor::Device;
+use physique_learn::mdm::{MdmFolder, Prompt, Sampling, TextToMotion};
+use physique_motion::features::recover_from_positions;
+use physique_text::MiniLm;
+
+fn network() -> TextToMotion {
+    let folder = MdmFolder::embedded(&Device::flex()).expect("whole");
+    let encoder = MiniLm::embedded().expect("embedded");
+    TextToMotion::new(folder, Some(Box::new(encoder))).expect("its encoder")
+}
+
+#[test]
+fn it_says_whose_data_it_is_from() {
+    let folder = MdmFolder::embedded(&Device::flex()).expect("whole");
+    let notes = &folder.description.notes;
+    assert!(notes["licence"].contains("BY-NC"), "{notes:?}");
+    assert!(notes["attribution"].contains("Bandai"), "{notes:?}");
+}
+
+#[test]
+fn it_tells_what_it_knows_from_what_it_does_not() {
+    let network = network();
+    for known in ["a person walks", "someone waves with the left hand"] {
+        let nearest = network.nearest(known).expect("captions are known");
+        assert!(!nearest.unusual, "{known}: {nearest:?}");
+    }
+    for unknown in [
+        "a chef chops onions",
+        "two people play chess",
+        "a man swims",
+    ] {
+        let nearest = network.nearest(unknown).expect("captions are known");
+        assert!(nearest.unusual, "{unknown}: {nearest:?}");
+    }
+}
+
+/// A walk gets somewhere, raised hands end above the head, and left is left.
+#[test]
+fn it_does_as_it_is_told() {
+    let network = network();
+    let texts = [
+        "a person walks",
+        "a person raises the left hand",
+        "a person raises the right hand",
+    ];
+    let prompts = texts.map(|text| Prompt {
+        text,
+        frames: 80,
+        seed: 3,
+    });
+    let motions = network.generate(&prompts, Sampling::default(), None, |_| ());
+    let motions = motions.expect("finite");
+    let joints: Vec<_> = motions
+        .iter()
+        .map(|features| recover_from_positions(features).expect("positions"))
+        .collect();
+    const LEFT_WRIST: usize = 20;
+    const RIGHT_WRIST: usize = 21;
+    let travelled = joints[0].frame(79)[0].distance(joints[0].frame(0)[0]);
+    assert!(travelled > 1.0, "{travelled} m");
+    let highest = |motion: usize, joint: usize| {
+        let heights = joints[motion].frames().map(|frame| frame[joint].y);
+        heights.fold(0.0, f32::max)
+    };
+    let differences =
+        [1, 2].map(|motion| highest(motion, LEFT_WRIST) - highest(motion, RIGHT_WRIST));
+    assert!(
+        differences[0] > 0.3 && differences[1] < -0.3,
+        "{differences:?} m"
+    );
+}
