@@ -198,7 +198,7 @@ fn network(device: &Device) -> Mdm {
     Mdm::new(&config, 5, device).expect("possible")
 }
 
-fn task(weight: f64, device: &Device) -> MdmTask<Motions> {
+fn task(weight: f64) -> MdmTask<Motions> {
     let (features, statistics) = batch(0.0);
     let training = MdmTraining {
         batch: LENGTHS.len(),
@@ -214,7 +214,7 @@ fn task(weight: f64, device: &Device) -> MdmTask<Motions> {
 fn the_task_adds_it_by_its_weight() {
     let device = Device::flex().autodiff();
     let network = network(&device);
-    let of = |weight: f64| task(weight, &device).loss(&network, 3, 0).expect("finite");
+    let of = |weight: f64| task(weight).loss(&network, 3, 0).expect("finite");
     let number = |tensor: &Tensor<1>| f64::from(tensor.clone().into_scalar::<f32>());
     let (without, with) = (of(0.0), of(0.5));
     let names = |loss: &physique_learn::trainer::Loss| -> Vec<&str> {
@@ -253,7 +253,7 @@ fn motions_that_are_none_stop_the_run() {
     let device = Device::flex().autodiff();
     let folder = tempfile::tempdir().expect("a folder");
     let (_, statistics) = batch(0.0);
-    let mut task = task(0.01, &device);
+    let mut task = task(0.01);
     let huge = FeatureStatistics::new(
         statistics.skeleton(),
         statistics.mean().to_vec(),
