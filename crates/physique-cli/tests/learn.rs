@@ -136,7 +136,8 @@ fn a_run_leaves_a_network_that_generates() {
     };
     assert!(size(&packed) < size(&model) * 6 / 10);
     assert!(packed.join("CARD.md").exists());
-    let from_packed = ["--model", path(&packed), "-o", path(&at("packed.glb"))];
+    let by_packed = at("packed.glb");
+    let from_packed = ["--model", path(&packed), "-o", path(&by_packed)];
     succeeds(&[&["generate", "a person walks"], &from_packed[..]].concat());
 
     // Many motions go into a folder; legs of another motion stay.
