@@ -28,7 +28,7 @@ fn view_draws_a_picture() {
 }
 
 #[test]
-fn demo_scores_and_draws_real_motion() {
+fn demo_scores_and_draws_real_motion_and_a_generated_one() {
     let folder = tempfile::tempdir().unwrap();
     let target = folder.path().join("demo");
     let output = physique(&["demo", "-o", &target.display().to_string()]);
@@ -36,7 +36,11 @@ fn demo_scores_and_draws_real_motion() {
     let scores = fs::read_to_string(target.join("scores.json")).unwrap();
     let report: Value = serde_json::from_str(&scores).unwrap();
     let motions = report["motions"].as_array().unwrap();
-    assert_eq!(motions.len(), embedded::clips().len());
+    let generated = usize::from(cfg!(feature = "learn"));
+    assert_eq!(motions.len(), embedded::clips().len() + generated);
+    if generated > 0 {
+        assert_eq!(motions[motions.len() - 1]["text"], "a person walks");
+    }
     for motion in motions {
         let name = motion["file"].as_str().unwrap();
         let picture: PathBuf = target.join(format!("{name}.png"));
