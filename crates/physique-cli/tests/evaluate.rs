@@ -15,7 +15,7 @@ use support::{fails, succeeds};
 
 const ACTIONS: [&str; 4] = ["walks", "waves", "sits down", "turns left"];
 
-/// A stick figure that sways faster or slower.
+/// A stick figure that turns, bobs and steps to and fro, faster or slower: every column changes.
 fn clip(number: usize) -> MotionFeatures {
     let skeleton = FeatureSkeleton::HumanMl3d;
     let (offsets, parents) = (skeleton.offsets(), skeleton.parents());
@@ -23,11 +23,13 @@ fn clip(number: usize) -> MotionFeatures {
     let mut positions = Vec::new();
     for frame in 0..61 {
         let start = positions.len();
+        let wave = (speed * frame as f32).sin();
+        let turn = glam::Quat::from_rotation_y(0.3 * wave);
         for (joint, parent) in parents.iter().enumerate() {
             let sway = glam::Vec3::X * 0.02 * (speed * frame as f32 + joint as f32).sin();
             let place = match parent {
-                Some(parent) => positions[start + parent] + offsets[joint] + sway,
-                None => glam::Vec3::new(0.0, 0.95, 0.02 * frame as f32),
+                Some(parent) => positions[start + parent] + turn * (offsets[joint] + sway),
+                None => glam::Vec3::new(0.0, 0.95 + 0.02 * wave, 0.3 * wave),
             };
             positions.push(place);
         }
