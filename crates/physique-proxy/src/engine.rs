@@ -169,16 +169,28 @@ impl<S: Simd> Fused<S> {
             };
             return self.part_of_tile(workspace, request, shape);
         }
-        let finite = self.simd.run(Tile {
-            plan: &self.plan,
-            penalty: self.penalty,
-            workspace,
-            given,
-            frames,
-            losses,
-            gradient,
-            shape,
-        });
+        let finite = match given {
+            Given::Rotations => self.simd.run(Tile::<_, false> {
+                plan: &self.plan,
+                penalty: self.penalty,
+                workspace,
+                given,
+                frames,
+                losses,
+                gradient,
+                shape,
+            }),
+            Given::Joints(_) => self.simd.run(Tile::<_, true> {
+                plan: &self.plan,
+                penalty: self.penalty,
+                workspace,
+                given,
+                frames,
+                losses,
+                gradient,
+                shape,
+            }),
+        };
         if finite {
             return None;
         }

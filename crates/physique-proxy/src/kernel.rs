@@ -40,22 +40,25 @@ pub(crate) enum Given<'a> {
     Joints(&'a Swings),
 }
 
+const ROTATION_NUMBERS: usize = 9 * Joint::COUNT;
+const JOINT_NUMBERS: usize = 3 * Joint::COUNT;
 /// Most numbers of a frame.
-const MOST_NUMBERS: usize = 9 * Joint::COUNT;
+const MOST_NUMBERS: usize = ROTATION_NUMBERS;
 
 impl Given<'_> {
     /// Numbers of a frame.
     #[inline(always)]
     pub(crate) const fn numbers(self) -> usize {
         match self {
-            Self::Rotations => MOST_NUMBERS,
-            Self::Joints(_) => 3 * Joint::COUNT,
+            Self::Rotations => ROTATION_NUMBERS,
+            Self::Joints(_) => JOINT_NUMBERS,
         }
     }
 }
 
-/// One tile: exactly [`Simd::COUNT`] frames.
-pub(crate) struct Tile<'a, L> {
+/// One tile: exactly [`Simd::COUNT`] frames. `JOINTS` says whether joints are given: a constant, so
+/// that a kernel for rotations holds no code for joints; with it, it would take twice the time.
+pub(crate) struct Tile<'a, L, const JOINTS: bool> {
     pub(crate) plan: &'a Plan,
     pub(crate) penalty: Penalty,
     pub(crate) workspace: &'a mut Workspace<L>,
@@ -76,7 +79,7 @@ pub(crate) struct TileGradient<'a> {
     pub(crate) by_frames: &'a mut [f32],
 }
 
-impl<S: Simd> Kernel<S> for Tile<'_, S::Lanes> {
+impl<S: Simd, const JOINTS: bool> Kernel<S> for Tile<'_, S::Lanes, JOINTS> {
     /// Whether all losses are finite.
     type Output = bool;
 
@@ -84,12 +87,17 @@ impl<S: Simd> Kernel<S> for Tile<'_, S::Lanes> {
     fn run(self, simd: S) -> bool {
         let (plan, work) = (self.plan, self.workspace);
         let ahead = prefetch::Ahead::new(self.frames, self.gradient.as_ref());
-        let not_finite = match self.given {
-            Given::Rotations => transpose::load(simd, self.frames, work.local.as_flattened_mut()),
-            Given::Joints(swings) => {
-                let not_finite = transpose::load(simd, self.frames, work.joints.as_flattened_mut());
-                not_finite + swings::forward(simd, swings, work)
-            }
+        let swings = match self.given {
+            Given::Joints(swings) if JOINTS => Some(swings),
+            _ => None,
+        };
+        let not_finite = if JOINTS && let Some(swings) = swings {
+            let joints = work.joints.as_flattened_mut();
+            let not_finite = transpose::load::<S, JOINT_NUMBERS>(simd, self.frames, joints);
+            not_finite + swings::forward(simd, swings, work)
+        } else {
+            let local = work.local.as_flattened_mut();
+            transpose::load::<S, ROTATION_NUMBERS>(simd, self.frames, local)
         };
         ahead.part(0);
         kinematics::forward(simd, plan, work);
@@ -120,14 +128,13 @@ impl<S: Simd> Kernel<S> for Tile<'_, S::Lanes> {
             } else {
                 kinematics::backward(simd, plan, work);
             }
-            match self.given {
-                Given::Rotations => {
-                    transpose::store(simd, work.local.as_flattened(), gradient.by_frames);
-                }
-                Given::Joints(swings) => {
-                    swings::backward(simd, swings, work);
-                    transpose::store(simd, work.joints.as_flattened(), gradient.by_frames);
-                }
+            if JOINTS && let Some(swings) = swings {
+                swings::backward(simd, swings, work);
+                let joints = work.joints.as_flattened();
+                transpose::store::<S, JOINT_NUMBERS>(simd, joints, gradient.by_frames);
+            } else {
+                let local = work.local.as_flattened();
+                transpose::store::<S, ROTATION_NUMBERS>(simd, local, gradient.by_frames);
             }
         }
         self.losses[..S::COUNT].iter().all(|loss| loss.is_finite())
