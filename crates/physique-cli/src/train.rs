@@ -6,6 +6,7 @@ mod mdm;
 mod pack;
 mod plan;
 mod samples;
+mod start;
 mod watch;
 
 use anyhow::Result;

@@ -89,7 +89,6 @@ fn a_run_leaves_a_network_that_generates() {
     }
     let card = fs::read_to_string(run.join("model/CARD.md")).unwrap();
     assert!(card.contains("* licence: zlib"), "{card}");
-    let log = fs::read_to_string(run.join("log.jsonl")).unwrap();
 
     // The same plan in two goes: the same losses.
     let again = at("again");
@@ -97,15 +96,8 @@ fn a_run_leaves_a_network_that_generates() {
     let first = ["--plan", path(&plan), "--sample-every", "0", "--steps", "2"];
     succeeds(&[&train[..], &first].concat());
     succeeds(&[&train[..], &["--sample-every", "0", "--steps", "4"]].concat());
-    let losses = |log: &str| -> Vec<f64> {
-        let lines = log.lines().map(|line| serde_json::from_str(line).unwrap());
-        lines
-            .map(|line: serde_json::Value| line["loss"].as_f64().unwrap())
-            .collect()
-    };
-    let other = fs::read_to_string(again.join("log.jsonl")).unwrap();
-    assert_eq!(losses(&log).len(), 4);
-    assert_eq!(losses(&log), losses(&other));
+    assert_eq!(losses(&run).len(), 4);
+    assert_eq!(losses(&run), losses(&again));
 
     let motion = at("walk.npy");
     let generate = [
@@ -164,6 +156,79 @@ fn a_run_leaves_a_network_that_generates() {
     let keep = ["--from", path(&from), "--keep", "legs", "-o", path(&edited)];
     succeeds(&[&generate[..], &keep].concat());
     assert!(edited.exists());
+}
+
+/// Losses of all steps of a run.
+fn losses(run: &Path) -> Vec<f64> {
+    let log = fs::read_to_string(run.join("log.jsonl")).unwrap();
+    let lines = log.lines().map(|line| serde_json::from_str(line).unwrap());
+    lines
+        .map(|line: serde_json::Value| line["loss"].as_f64().unwrap())
+        .collect()
+}
+
+#[test]
+fn a_run_starts_from_a_trained_network() {
+    let folder = prepared();
+    let at = |name: &str| folder.path().join(name);
+    let (data, plan, first) = (at("data.pmd"), at("plan.toml"), at("first"));
+    let arguments = |run: &Path, flags: &[&str]| -> Vec<String> {
+        let all = ["train", "mdm", "--data", path(&data), "-o", path(run)];
+        let all = all.iter().chain(&["--sample-every", "0"]).chain(flags);
+        all.map(|&argument| argument.to_owned()).collect()
+    };
+    fn borrowed(arguments: &[String]) -> Vec<&str> {
+        arguments.iter().map(String::as_str).collect()
+    }
+    let train = |run: &Path, flags: &[&str]| succeeds(&borrowed(&arguments(run, flags)));
+    let refused = |run: &Path, flags: &[&str]| fails(1, &borrowed(&arguments(run, flags)));
+    train(&first, &["--plan", path(&plan)]);
+    let model = first.join("model");
+
+    // The shape comes with the network.
+    let tuned = at("tuned");
+    let sia = ["--self-intersection", "0.01", "--batch", "2"];
+    let steps = ["--steps", "4", "--save-every", "2"];
+    let start = ["--start-from", path(&model)];
+    train(&tuned, &[&start[..], &sia, &steps].concat());
+    let kept = fs::read_to_string(tuned.join("plan.json")).unwrap();
+    let kept: serde_json::Value = serde_json::from_str(&kept).unwrap();
+    assert_eq!(kept["network"]["width"], 16);
+    assert_eq!(kept["training"]["diffusion_steps"], 10);
+    assert_eq!(kept["started_from"]["path"], path(&model));
+    assert_eq!(kept["started_from"]["sha256"].as_str().unwrap().len(), 64);
+    let card = fs::read_to_string(tuned.join("model/CARD.md")).unwrap();
+    assert!(card.contains("* started_from: "), "{card}");
+
+    // Killed after its first checkpoint, without the network that it started from; and before it could
+    // keep that: the same losses.
+    let whole = losses(&tuned);
+    assert_eq!(whole.len(), 1, "of the last step");
+    let forget = |steps: &[u64]| {
+        for step in steps {
+            fs::remove_file(tuned.join(format!("state-{step:09}.safetensors"))).unwrap();
+        }
+    };
+    forget(&[2, 4]);
+    fs::rename(&model, at("moved")).unwrap();
+    train(&tuned, &[]);
+    assert_eq!(losses(&tuned), whole);
+    forget(&[0, 2, 4]);
+    assert!(refused(&tuned, &[]).contains(path(&model)));
+    fs::rename(at("moved"), &model).unwrap();
+    train(&tuned, &start);
+    assert_eq!(losses(&tuned), whole);
+
+    // Another network, another shape, another text encoder.
+    let other = first.join("state-000000002.safetensors");
+    let told = refused(&tuned, &["--start-from", path(&other)]);
+    assert!(told.contains("holds a run that started from"), "{told}");
+    let told = refused(&at("new"), &[&start[..], &["--plan", "small"]].concat());
+    assert!(told.contains("model, the network's "), "{told}");
+    let told = refused(&at("new"), &[&start[..], &["--text", "none"]].concat());
+    let expected = "was trained with the text encoder all-MiniLM-L6-v2";
+    assert!(told.contains(expected), "{told}");
+    assert!(!at("new").exists());
 }
 
 #[test]

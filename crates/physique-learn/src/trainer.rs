@@ -28,3 +28,5 @@ pub use batch::{BatchCondition, MotionBatch, MotionSource};
 pub use config::{RateSchedule, TrainerConfig};
 pub use parallel::Part;
 pub use run::{Loss, StepReport, Task, Trainer};
+pub(crate) use state::read_network;
+pub use state::steps_in;

@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use burn::module::Module;
 use burn::tensor::{Device, Tensor, TensorData};
 use physique_files::npz::{Archive, ArrayLimits};
 use physique_learn::checkpoint::{
@@ -11,7 +12,7 @@ use physique_learn::checkpoint::{
 use physique_learn::layers::Dropout;
 use physique_learn::mdm::{
     Condition, ConditionKind, Mdm, MdmConfig, MdmDescription, MdmFolder, MdmQuery,
-    PublishedArguments, from_parameters, parameters_of, read_published,
+    PublishedArguments, StartingNetwork, from_parameters, parameters_of, read_published,
 };
 use physique_motion::features::{FeatureSkeleton, FeatureStatistics};
 
@@ -75,6 +76,34 @@ fn every_published_layout_is_read() {
         let error = error(&model);
         assert!(error < 2e-6, "{name}: {error}");
     }
+}
+
+/// Another network of this shape begins where the published one ended.
+#[test]
+fn training_can_start_from_a_published_file() {
+    let (path, limits) = (fixture("average.pt"), CheckpointLimits::default());
+    let start = StartingNetwork::read(&path, &limits, &Device::flex()).expect("sound");
+    assert_eq!((start.diffusion_steps, start.signal), (50, 1.0));
+    assert_eq!(start.text_encoder.as_deref(), Some("CLIP"));
+    assert_eq!(start.origin.path, path.display().to_string());
+    let config = MdmConfig {
+        dropout: 0.3,
+        ..start.network.config().clone()
+    };
+    let device = Device::flex().autodiff();
+    let network = start.network(&config, &device).expect("of this shape");
+    assert_eq!(network.config().dropout, 0.3);
+    assert!(error(&network.valid()) < 2e-6);
+    let other = MdmConfig {
+        layers: 3,
+        ..config
+    };
+    let told = start.network(&other, &device).expect_err("deeper");
+    let told = told.to_string();
+    assert!(
+        told.contains("average.pt, the network's layers: expected 3") && told.contains("found 2"),
+        "{told}"
+    );
 }
 
 /// The model beside the average is another one: which of them is read is no accident.

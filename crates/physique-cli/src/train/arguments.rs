@@ -56,6 +56,11 @@ pub(crate) struct MdmArguments {
     /// A plan: `published`, `fast`, `kit`, `small`, or a TOML file; a run that goes on has one.
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) plan: Option<String>,
+    /// Start a new run from the weights of a trained network, with a fresh optimiser: a folder of a
+    /// network, a published checkpoint (.pt) with args.json beside it, or a state of another run.
+    /// Without --plan, the network's shape and the steps of noise are that network's.
+    #[arg(long, value_name = "FOLDER|FILE")]
+    pub(crate) start_from: Option<PathBuf>,
     /// Text encoder: `minilm`, or a folder in the layout of Hugging Face (CLIP, DistilBERT, BERT);
     /// `none` for a network that is told nothing.
     #[arg(long, value_name = "NAME|FOLDER", default_value = "minilm")]

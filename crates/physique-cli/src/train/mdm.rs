@@ -10,7 +10,7 @@ use physique_files::write_file;
 use physique_learn::checkpoint::Precision;
 use physique_learn::data::CaptionedMotions;
 use physique_learn::mdm::{
-    ConditionKind, Mdm, MdmDescription, MdmFolder, MdmPlan, MdmTask, TextToMotion,
+    ConditionKind, Mdm, MdmDescription, MdmFolder, MdmPlan, MdmTask, StartingNetwork, TextToMotion,
 };
 use physique_learn::text::{CaptionCentre, Embeddings, KnownCaptions, PromptEncoder};
 use physique_learn::trainer::{StepReport, Trainer};
@@ -18,7 +18,7 @@ use physique_text::TextEncoder;
 
 use super::arguments::MdmArguments;
 use super::watch::Watch;
-use super::{plan, samples};
+use super::{plan, samples, start};
 use crate::exit::Exit;
 use crate::text_encoder;
 
@@ -26,7 +26,9 @@ use crate::text_encoder;
 const KEPT_CAPTIONS: usize = 1024;
 
 pub(crate) fn run(arguments: &MdmArguments) -> Result<Exit> {
-    let mut plan = plan::plan(arguments)?;
+    let kept = plan::kept(&arguments.output)?;
+    let start = start::open(arguments, kept.as_ref())?;
+    let mut plan = plan::plan(arguments, kept, start.as_ref())?;
     let dataset = Dataset::open(&arguments.data, &DataLimits::default())?;
     let encoder = text_encoder::named(&arguments.text)?;
     plan.network.columns = dataset.skeleton().feature_count();
@@ -43,11 +45,16 @@ pub(crate) fn run(arguments: &MdmArguments) -> Result<Exit> {
         println!("{}", serde_json::to_string_pretty(&plan)?);
         return Ok(Exit::Done);
     }
+    if let Some(start) = &start {
+        start::check(start, &plan, encoder.as_deref(), &dataset)?;
+        start::keep_captions(start, &arguments.output)?;
+    }
     plan::keep(&arguments.output, &plan)?;
+    let centre = start::kept_centre(&arguments.output)?;
     let told = encoder
-        .map(|encoder| Told::new(encoder, &dataset))
+        .map(|encoder| Told::new(encoder, &dataset, centre))
         .transpose()?;
-    train(arguments, &plan, &dataset, told.as_ref())?;
+    train(arguments, &plan, &dataset, told.as_ref(), start.as_ref())?;
     println!("{}", arguments.output.join("model").display());
     Ok(Exit::Done)
 }
@@ -59,10 +66,16 @@ struct Told {
 }
 
 impl Told {
-    fn new(encoder: Box<dyn TextEncoder>, dataset: &Dataset) -> Result<Self> {
+    /// `centre` is that of the network which the run starts from.
+    fn new(
+        encoder: Box<dyn TextEncoder>,
+        dataset: &Dataset,
+        centre: Option<CaptionCentre>,
+    ) -> Result<Self> {
         let (training, held_out) = wordings(dataset);
         // CLIP and DistilBERT are read as published.
         let centre = match encoder.name() == "all-MiniLM-L6-v2" {
+            true if centre.is_some() => centre,
             true => {
                 eprintln!("note: reading the captions");
                 let captions = spread(&training, KEPT_CAPTIONS);
@@ -115,6 +128,7 @@ fn train(
     plan: &MdmPlan,
     dataset: &Dataset,
     told: Option<&Told>,
+    start: Option<&StartingNetwork>,
 ) -> Result<()> {
     let frame_rate = dataset.frame_rate().per_second();
     let longest = plan.windows.longest_seconds;
@@ -131,8 +145,15 @@ fn train(
     let source = CaptionedMotions::new(dataset, options, prompts)?;
     let device = physique_learn::device().autodiff();
     let task = MdmTask::new(source, dataset.statistics(), plan.training.clone())?;
-    let network = Mdm::new(&plan.network, plan.run.seed, &device)?;
+    let network = match start {
+        Some(start) => start.network(&plan.network, &device)?,
+        None => Mdm::new(&plan.network, plan.run.seed, &device)?,
+    };
     let mut trainer = Trainer::open(task, network, plan.run.clone(), &arguments.output)?;
+    if start.is_some() {
+        // From here on the run needs the network that it started from no more.
+        trainer.save()?;
+    }
 
     let body = Body::mean(open_body()?, Sex::Neutral)?;
     let longest = longest.map_or(dataset.index().longest_window, |rows| {
@@ -196,7 +217,10 @@ fn notes(dataset: &Dataset, plan: &MdmPlan, done: u64) -> BTreeMap<String, Strin
         .splits
         .get(&Split::Train)
         .map_or(0.0, |amount| amount.hours);
-    [
+    let origin = plan.started_from.as_ref();
+    let origin = origin.map(|origin| format!("{} ({})", origin.path, origin.sha256));
+    let origin = origin.map(|origin| ("started_from", origin));
+    let notes = [
         ("data", index.name.clone()),
         ("licence", index.licence.clone()),
         ("attribution", index.attribution.clone()),
@@ -205,9 +229,11 @@ fn notes(dataset: &Dataset, plan: &MdmPlan, done: u64) -> BTreeMap<String, Strin
         ("batch", plan.training.batch.to_string()),
         ("seed", plan.run.seed.to_string()),
         ("physique", env!("CARGO_PKG_VERSION").to_owned()),
-    ]
-    .map(|(name, value)| (name.to_owned(), value))
-    .into()
+    ];
+    let notes = notes.into_iter().chain(origin);
+    notes
+        .map(|(name, value)| (name.to_owned(), value))
+        .collect()
 }
 
 /// Writes the network with a card.

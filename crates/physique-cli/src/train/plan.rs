@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use physique_files::write_file;
-use physique_learn::mdm::{MdmPlan, PLANS};
+use physique_learn::mdm::{MdmPlan, PLANS, StartingNetwork};
 
 use super::arguments::{ChangeArguments, MdmArguments};
 
@@ -13,13 +13,26 @@ use super::arguments::{ChangeArguments, MdmArguments};
 const FILE: &str = "plan.json";
 
 /// The plan of the flags, or of the run that is in the folder, with what the flags change.
-pub(super) fn plan(arguments: &MdmArguments) -> Result<MdmPlan> {
-    let kept = kept(&arguments.output)?;
+pub(super) fn plan(
+    arguments: &MdmArguments,
+    kept: Option<MdmPlan>,
+    start: Option<&StartingNetwork>,
+) -> Result<MdmPlan> {
+    let origin = kept.as_ref().and_then(|kept| kept.started_from.clone());
     let mut plan = match (&arguments.plan, kept) {
         (Some(name), _) => named(name)?,
         (None, Some(kept)) => kept,
-        (None, None) => named("small")?,
+        (None, None) => {
+            let mut plan = named("small")?;
+            if let Some(start) = start {
+                plan.network = start.network.config().clone();
+                plan.training.diffusion_steps = start.diffusion_steps;
+                plan.training.signal = start.signal;
+            }
+            plan
+        }
     };
+    plan.started_from = start.map(|start| start.origin.clone()).or(origin);
     change(&mut plan, &arguments.change);
     Ok(plan)
 }
@@ -40,7 +53,8 @@ pub(super) fn keep(folder: &Path, plan: &MdmPlan) -> Result<()> {
     Ok(write_file(&folder.join(FILE), text.as_bytes())?)
 }
 
-fn kept(folder: &Path) -> Result<Option<MdmPlan>> {
+/// The plan of the run that is in a folder.
+pub(super) fn kept(folder: &Path) -> Result<Option<MdmPlan>> {
     let path = folder.join(FILE);
     if !path.exists() {
         return Ok(None);

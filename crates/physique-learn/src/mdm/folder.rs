@@ -17,7 +17,7 @@ use crate::checkpoint::{CheckpointLimits, Precision, parse_safetensors, write_sa
 use crate::text::KnownCaptions;
 
 const FORMAT: &str = "physique-mdm 1";
-const NETWORK: &str = "model.safetensors";
+pub(super) const NETWORK: &str = "model.safetensors";
 const CONFIG: &str = "config.json";
 const MEAN: &str = "mean.npy";
 const DEVIATION: &str = "std.npy";

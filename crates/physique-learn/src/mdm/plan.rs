@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{MdmConfig, MdmTraining};
+use super::{MdmConfig, MdmTraining, Origin};
 use crate::layers::NormPlace;
 use crate::trainer::{AdamWConfig, RateSchedule, TrainerConfig};
 
@@ -20,6 +20,9 @@ pub struct MdmPlan {
     pub run: TrainerConfig,
     /// Which windows of motions it sees.
     pub windows: WindowPlan,
+    /// The trained network that the run starts from; a new one without.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub started_from: Option<Origin>,
 }
 
 /// Which windows of motions a run sees.
@@ -128,6 +131,7 @@ impl MdmPlan {
                 balance_by: Some("content".into()),
                 longest_seconds: Some(6.0),
             },
+            started_from: None,
         }
     }
 }

@@ -26,6 +26,17 @@ pub(super) fn newest(folder: &Path) -> Result<Option<(PathBuf, u64)>, Error> {
     Ok(all(folder)?.pop().map(|(step, path)| (path, step)))
 }
 
+/// Steps of the newest checkpoint in a folder; `None` where there is no run.
+///
+/// # Errors
+/// [`Error::File`].
+pub fn steps_in(folder: &Path) -> Result<Option<u64>, Error> {
+    match folder.exists() {
+        true => Ok(newest(folder)?.map(|(_, step)| step)),
+        false => Ok(None),
+    }
+}
+
 /// Removes all but the newest files.
 pub(super) fn keep_newest(folder: &Path, count: usize) -> Result<(), Error> {
     let mut states = all(folder)?;
@@ -96,12 +107,7 @@ pub(super) fn read<N: Module>(
     (network, average): (N, Option<N>),
     config: &TrainerConfig,
 ) -> Result<(N, Option<N>, AdamW), Error> {
-    // A state holds every parameter four times.
-    let limits = CheckpointLimits {
-        bytes: 1 << 36,
-        ..CheckpointLimits::default()
-    };
-    let (state, words) = read_safetensors(path, &limits)?;
+    let (state, words) = read_safetensors(path, &limits())?;
     let refuse = |place: &str, expected: String, found: String| Error::Checkpoint {
         file: path.into(),
         place: place.to_owned(),
@@ -147,6 +153,27 @@ pub(super) fn read<N: Module>(
         optimiser.moments.insert(name, moments);
     }
     Ok((network, average, optimiser))
+}
+
+/// The network to use of a run's state: the running average where there is one.
+///
+/// # Errors
+/// [`Error::File`]; [`Error::Checkpoint`] for a broken file.
+pub(crate) fn read_network(path: &Path) -> Result<Parameters, Error> {
+    let (state, _) = read_safetensors(path, &limits())?;
+    let average = state.clone().below(AVERAGE);
+    Ok(match average.arrays.is_empty() {
+        true => state.below(NETWORK),
+        false => average,
+    })
+}
+
+/// A state holds every parameter four times.
+fn limits() -> CheckpointLimits {
+    CheckpointLimits {
+        bytes: 1 << 36,
+        ..CheckpointLimits::default()
+    }
 }
 
 /// What must not change within a run. More steps may be asked for, where the rate does not depend
