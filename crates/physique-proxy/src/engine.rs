@@ -3,9 +3,28 @@
 use std::sync::Mutex;
 
 use crate::Penalty;
-use crate::kernel::{Given, ShapeSums, Tile, TileGradient, Workspace};
+use crate::kernel::{Input, Joints, Rotations, ShapeSums, Swings, Tile, TileGradient, Workspace};
 use crate::lanes::{Dispatch, MOST_LANES, Simd};
 use crate::plan::Plan;
+
+/// What frames are given by, not yet known when the program is compiled.
+#[derive(Clone, Copy)]
+pub(crate) enum Given<'a> {
+    /// See [`Rotations`].
+    Rotations,
+    /// See [`Joints`].
+    Joints(&'a Swings),
+}
+
+impl Given<'_> {
+    /// Numbers of a frame.
+    const fn numbers(self) -> usize {
+        match self {
+            Self::Rotations => Rotations::NUMBERS,
+            Self::Joints(_) => Joints::NUMBERS,
+        }
+    }
+}
 
 /// What to evaluate: a frame for each of `losses`.
 pub(crate) struct Request<'a> {
@@ -154,43 +173,33 @@ impl<S: Simd> Fused<S> {
         request: Request<'_>,
         shape: Option<&mut ShapeSums>,
     ) -> Option<usize> {
-        let Request {
-            given,
-            frames,
-            losses,
-            gradient,
-        } = request;
-        if losses.len() < S::COUNT {
-            let request = Request {
-                given,
-                frames,
-                losses,
-                gradient,
-            };
+        if request.losses.len() < S::COUNT {
             return self.part_of_tile(workspace, request, shape);
         }
-        let finite = match given {
-            Given::Rotations => self.simd.run(Tile::<_, false> {
-                plan: &self.plan,
-                penalty: self.penalty,
-                workspace,
-                given,
-                frames,
-                losses,
-                gradient,
-                shape,
-            }),
-            Given::Joints(_) => self.simd.run(Tile::<_, true> {
-                plan: &self.plan,
-                penalty: self.penalty,
-                workspace,
-                given,
-                frames,
-                losses,
-                gradient,
-                shape,
-            }),
-        };
+        match request.given {
+            Given::Rotations => self.run(Rotations, workspace, request, shape),
+            Given::Joints(swings) => self.run(Joints(swings), workspace, request, shape),
+        }
+    }
+
+    fn run<I: Input>(
+        &self,
+        input: I,
+        workspace: &mut Workspace<S::Lanes>,
+        request: Request<'_>,
+        shape: Option<&mut ShapeSums>,
+    ) -> Option<usize> {
+        let losses = request.losses;
+        let finite = self.simd.run(Tile {
+            input,
+            plan: &self.plan,
+            penalty: self.penalty,
+            workspace,
+            frames: request.frames,
+            losses,
+            gradient: request.gradient,
+            shape,
+        });
         if finite {
             return None;
         }

@@ -9,9 +9,14 @@
 //! Where joint positions are given instead of poses, [`swings`] stand between them and rotations.
 //!
 //! Every stage reads what the last one left in a [`Workspace`] that fits the second-level cache.
+//!
+//! Stages go by index where lanes are concerned: a closure, and an iterator that holds one, is inlined
+//! only where the compiler pleases, and what is not is compiled for the least processor.
+#![allow(clippy::needless_range_loop)]
 
 mod bounds;
 mod contacts;
+mod input;
 mod kinematics;
 mod pairs;
 mod prefetch;
@@ -19,51 +24,28 @@ mod shape;
 mod skinning;
 mod swings;
 mod transpose;
+mod vectors;
 mod workspace;
-
-use physique_body::Joint;
 
 use crate::Penalty;
 use crate::lanes::{Kernel, Lanes, Simd};
 use crate::plan::Plan;
 
+pub(crate) use input::{Input, Joints, Rotations};
 pub(crate) use shape::ShapeSums;
 pub(crate) use swings::Swings;
 pub(crate) use workspace::Workspace;
 
-/// What a frame is given by.
-#[derive(Clone, Copy)]
-pub(crate) enum Given<'a> {
-    /// Local rotations, [`crate::PoseMatrices`].
-    Rotations,
-    /// Joint positions, [`crate::feature_loss::JointFrame`], and how they become rotations.
-    Joints(&'a Swings),
-}
-
-const ROTATION_NUMBERS: usize = 9 * Joint::COUNT;
-const JOINT_NUMBERS: usize = 3 * Joint::COUNT;
 /// Most numbers of a frame.
-const MOST_NUMBERS: usize = ROTATION_NUMBERS;
+const MOST_NUMBERS: usize = Rotations::NUMBERS;
 
-impl Given<'_> {
-    /// Numbers of a frame.
-    #[inline(always)]
-    pub(crate) const fn numbers(self) -> usize {
-        match self {
-            Self::Rotations => ROTATION_NUMBERS,
-            Self::Joints(_) => JOINT_NUMBERS,
-        }
-    }
-}
-
-/// One tile: exactly [`Simd::COUNT`] frames. `JOINTS` says whether joints are given: a constant, so
-/// that a kernel for rotations holds no code for joints; with it, it would take twice the time.
-pub(crate) struct Tile<'a, L, const JOINTS: bool> {
+/// One tile: exactly [`Simd::COUNT`] frames.
+pub(crate) struct Tile<'a, L, I> {
+    pub(crate) input: I,
     pub(crate) plan: &'a Plan,
     pub(crate) penalty: Penalty,
     pub(crate) workspace: &'a mut Workspace<L>,
-    pub(crate) given: Given<'a>,
-    /// Rows of [`Given::numbers`].
+    /// Rows of [`Input::NUMBERS`].
     pub(crate) frames: &'a [f32],
     pub(crate) losses: &'a mut [f32],
     pub(crate) gradient: Option<TileGradient<'a>>,
@@ -79,7 +61,7 @@ pub(crate) struct TileGradient<'a> {
     pub(crate) by_frames: &'a mut [f32],
 }
 
-impl<S: Simd, const JOINTS: bool> Kernel<S> for Tile<'_, S::Lanes, JOINTS> {
+impl<S: Simd, I: Input> Kernel<S> for Tile<'_, S::Lanes, I> {
     /// Whether all losses are finite.
     type Output = bool;
 
@@ -87,18 +69,7 @@ impl<S: Simd, const JOINTS: bool> Kernel<S> for Tile<'_, S::Lanes, JOINTS> {
     fn run(self, simd: S) -> bool {
         let (plan, work) = (self.plan, self.workspace);
         let ahead = prefetch::Ahead::new(self.frames, self.gradient.as_ref());
-        let swings = match self.given {
-            Given::Joints(swings) if JOINTS => Some(swings),
-            _ => None,
-        };
-        let not_finite = if JOINTS && let Some(swings) = swings {
-            let joints = work.joints.as_flattened_mut();
-            let not_finite = transpose::load::<S, JOINT_NUMBERS>(simd, self.frames, joints);
-            not_finite + swings::forward(simd, swings, work)
-        } else {
-            let local = work.local.as_flattened_mut();
-            transpose::load::<S, ROTATION_NUMBERS>(simd, self.frames, local)
-        };
+        let not_finite = self.input.forward(simd, self.frames, work);
         ahead.part(0);
         kinematics::forward(simd, plan, work);
         ahead.part(1);
@@ -128,14 +99,7 @@ impl<S: Simd, const JOINTS: bool> Kernel<S> for Tile<'_, S::Lanes, JOINTS> {
             } else {
                 kinematics::backward(simd, plan, work);
             }
-            if JOINTS && let Some(swings) = swings {
-                swings::backward(simd, swings, work);
-                let joints = work.joints.as_flattened();
-                transpose::store::<S, JOINT_NUMBERS>(simd, joints, gradient.by_frames);
-            } else {
-                let local = work.local.as_flattened();
-                transpose::store::<S, ROTATION_NUMBERS>(simd, local, gradient.by_frames);
-            }
+            self.input.backward(simd, work, gradient.by_frames);
         }
         self.losses[..S::COUNT].iter().all(|loss| loss.is_finite())
     }

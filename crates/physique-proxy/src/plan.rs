@@ -43,7 +43,7 @@ pub(crate) struct Plan {
     pub(crate) quad_starts: Vec<[u16; 2]>,
     /// By quad pair: row `i`, column `j`, half the squared distance below which `i` of the first
     /// quad may touch `j` of the second.
-    pub(crate) thresholds: Vec<[f32; QUAD * QUAD]>,
+    pub(crate) thresholds: Vec<[[f32; QUAD]; QUAD]>,
 }
 
 /// Two groups and the pairs of their quads.
@@ -128,7 +128,7 @@ impl Plan {
                 self.quad_pairs.push(quads);
                 let starts = [quad_a, quad_b].map(|quad| self.quads[quad].start);
                 self.quad_starts.push(starts);
-                self.thresholds.push([f32::NEG_INFINITY; QUAD * QUAD]);
+                self.thresholds.push([[f32::NEG_INFINITY; QUAD]; QUAD]);
                 range.end += 1;
             }
             let row = a - usize::from(self.quads[quad_a].start);
@@ -136,7 +136,7 @@ impl Plan {
             let touching = self.reach[a] + self.reach[b];
             if touching > 0.0 {
                 let last = self.thresholds.len() - 1;
-                self.thresholds[last][row * QUAD + column] = 0.5 * touching * touching + margin;
+                self.thresholds[last][row][column] = 0.5 * touching * touching + margin;
             }
         }
     }

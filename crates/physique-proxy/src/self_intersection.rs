@@ -4,9 +4,9 @@ use std::fmt;
 
 use physique_body::Joint;
 
-use crate::engine::{Build, Engine, Request};
+use crate::engine::{Build, Engine, Given, Request};
 use crate::feature_loss::JointFrame;
-use crate::kernel::{Given, ShapeSums, Swings, TileGradient};
+use crate::kernel::{ShapeSums, Swings, TileGradient};
 use crate::plan::Plan;
 use crate::shape_gradient::ShapeGradient;
 use crate::{Backend, Error, Pairs, Penalty, PoseMatrices, SphereBody};

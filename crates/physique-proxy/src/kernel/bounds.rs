@@ -3,7 +3,7 @@
 use super::Workspace;
 use super::workspace::Bounds;
 use crate::lanes::{Lanes, Simd};
-use crate::plan::Plan;
+use crate::plan::{Plan, QUAD};
 
 /// Bounds all quads and groups.
 ///
@@ -13,22 +13,26 @@ pub(super) fn bound<S: Simd>(simd: S, plan: &Plan, work: &mut Workspace<S::Lanes
     let spheres = &work.spheres[..];
     let zero = simd.splat(0.0);
     let mut poison = zero;
-    for (members, quad_bounds) in plan.members.iter().zip(&mut work.quad_bounds) {
+    let quad_bounds = &mut work.quad_bounds[..plan.members.len()];
+    for quad in 0..plan.members.len() {
+        let members = plan.members[quad];
         let mut around = ball(simd, plan, spheres, members[0]);
-        for &place in &members[1..] {
+        poison = spheres[usize::from(members[0])][3].mul_add(zero, poison);
+        for member in 1..QUAD {
+            let place = members[member];
             union(&mut around, &ball(simd, plan, spheres, place));
-        }
-        for &place in members {
             poison = spheres[usize::from(place)][3].mul_add(zero, poison);
         }
-        *quad_bounds = around;
+        quad_bounds[quad] = around;
     }
-    for (group, group_bounds) in plan.groups.iter().zip(&mut work.group_bounds) {
-        let mut around = work.quad_bounds[usize::from(group.start)];
-        for quad in &work.quad_bounds[usize::from(group.start) + 1..usize::from(group.end)] {
-            union(&mut around, quad);
+    let group_bounds = &mut work.group_bounds[..plan.groups.len()];
+    for group in 0..plan.groups.len() {
+        let quads = usize::from(plan.groups[group].start)..usize::from(plan.groups[group].end);
+        let mut around = quad_bounds[quads.start];
+        for quad in quads.start + 1..quads.end {
+            union(&mut around, &quad_bounds[quad]);
         }
-        *group_bounds = around;
+        group_bounds[group] = around;
     }
     poison
 }

@@ -1,8 +1,8 @@
 //! Spheres that touch: depth, cost, and which way they push each other.
 
-use super::pairs::Answers;
+use super::pairs::places;
 use crate::Penalty;
-use crate::lanes::{Lanes, Simd};
+use crate::lanes::{Answers, Lanes, Simd};
 use crate::plan::{Plan, QUAD};
 
 /// Derivatives of the loss, of half the loss for the squared penalty.
@@ -33,10 +33,8 @@ pub(super) fn measure<S: Simd, const GRADIENT: bool, const SHAPE: bool>(
     let least = simd.splat(f32::MIN_POSITIVE);
     let mut loss = zero;
     for &(number, mut answers) in touching {
-        let [rows, columns] = plan.quad_starts[number as usize].map(usize::from);
-        while answers != 0 {
-            let place = answers.trailing_zeros() as usize;
-            answers &= answers - 1;
+        let [rows, columns] = places(plan.quad_starts[number as usize]);
+        while let Some(place) = answers.pop() {
             let (i, j) = (rows + place / QUAD, columns + place % QUAD);
             let ([ax, ay, az, _], [bx, by, bz, _]) = (spheres[i], spheres[j]);
             let (x, y, z) = (ax - bx, ay - by, az - bz);

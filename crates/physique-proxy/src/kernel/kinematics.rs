@@ -3,6 +3,7 @@
 use physique_body::Joint;
 
 use super::Workspace;
+use super::vectors::{rotation, splat};
 use super::workspace::Transform;
 use crate::lanes::{Lanes, Simd};
 use crate::plan::Plan;
@@ -23,13 +24,13 @@ pub(super) const PARENTS: [usize; Joint::COUNT] = {
 #[inline(always)]
 pub(super) fn forward<S: Simd>(simd: S, plan: &Plan, work: &mut Workspace<S::Lanes>) {
     let world = &mut work.world_from_joint;
-    let [x, y, z] = plan.offsets[0].map(|offset| simd.splat(offset));
+    let [x, y, z] = splat(simd, plan.offsets[0]);
     let [a, b, c, d, e, f, g, h, i] = work.local[0];
     world[0] = [a, b, c, d, e, f, g, h, i, x, y, z];
     for joint in 1..Joint::COUNT {
         let parent = world[PARENTS[joint]];
         let local = &work.local[joint];
-        let [x, y, z] = plan.offsets[joint].map(|offset| simd.splat(offset));
+        let [x, y, z] = splat(simd, plan.offsets[joint]);
         for row in 0..3 {
             let [a, b, c] = [parent[3 * row], parent[3 * row + 1], parent[3 * row + 2]];
             for column in 0..3 {
@@ -49,7 +50,7 @@ pub(super) fn backward<S: Simd>(simd: S, plan: &Plan, work: &mut Workspace<S::La
     for joint in (1..Joint::COUNT).rev() {
         let parent = PARENTS[joint];
         let by_joint = work.by_world[joint];
-        let offset = plan.offsets[joint].map(|offset| simd.splat(offset));
+        let offset = splat(simd, plan.offsets[joint]);
         let by_parent = &mut work.by_world[parent];
         let local = &mut work.local[joint];
         add_parent::<S>(by_parent, &by_joint, local, offset);
@@ -63,8 +64,7 @@ pub(super) fn backward<S: Simd>(simd: S, plan: &Plan, work: &mut Workspace<S::La
             }
         }
     }
-    let root = &work.by_world[0];
-    work.local[0].copy_from_slice(&root[..9]);
+    work.local[0] = rotation(&work.by_world[0]);
 }
 
 /// `by_parent += [by_rotation * rotation^T + by_position * offset^T | by_position]`.

@@ -8,7 +8,7 @@ use super::bounds::overlap;
 use super::contacts::{self, Slopes};
 use super::workspace::{Bounds, Workspace};
 use crate::Penalty;
-use crate::lanes::{Lanes, Simd};
+use crate::lanes::{Answers, Lanes, Simd};
 use crate::plan::{Plan, QUAD};
 
 /// The loss; with `GRADIENT`, also its derivatives by the spheres, and with `SHAPE` those by the
@@ -36,8 +36,10 @@ pub(super) fn pairs<S: Simd, const GRADIENT: bool, const SHAPE: bool>(
     contacts::measure::<S, GRADIENT, SHAPE>(simd, plan, &work.spheres, touching, penalty, slopes)
 }
 
-/// Sixteen answers: bit `4 * row + column` for the spheres of two quads.
-pub(super) type Answers = u16;
+#[inline(always)]
+pub(super) fn places([a, b]: [u16; 2]) -> [usize; 2] {
+    [a.into(), b.into()]
+}
 
 /// Numbers of the group pairs whose boxes overlap.
 #[inline(always)]
@@ -47,8 +49,8 @@ fn filter_groups<'a, L: Lanes>(
     survivors: &'a mut [u32],
 ) -> &'a [u32] {
     let mut count = 0;
-    for (number, pair) in plan.group_pairs.iter().enumerate() {
-        let [a, b] = pair.groups.map(usize::from);
+    for number in 0..plan.group_pairs.len() {
+        let [a, b] = places(plan.group_pairs[number].groups);
         survivors[count] = number as u32;
         count += usize::from(overlap(&bounds[a], &bounds[b]));
     }
@@ -65,10 +67,9 @@ fn filter_quads<'a, L: Lanes>(
 ) -> &'a [u32] {
     let mut count = 0;
     for &group_pair in group_pairs {
-        let numbers = plan.group_pairs[group_pair as usize].quad_pairs.clone();
-        let quad_pairs = &plan.quad_pairs[numbers.start as usize..numbers.end as usize];
-        for (number, quads) in numbers.zip(quad_pairs) {
-            let [a, b] = quads.map(usize::from);
+        let numbers = &plan.group_pairs[group_pair as usize].quad_pairs;
+        for number in numbers.start..numbers.end {
+            let [a, b] = places(plan.quad_pairs[number as usize]);
             survivors[count] = number;
             count += usize::from(overlap(&bounds[a], &bounds[b]));
         }
@@ -88,24 +89,38 @@ fn filter_spheres<'a, S: Simd>(
     let mut count = 0;
     for &number in quad_pairs {
         let thresholds = &plan.thresholds[number as usize];
-        let [rows, columns] = plan.quad_starts[number as usize].map(usize::from);
+        let [rows, columns] = places(plan.quad_starts[number as usize]);
         let rows = &spheres[rows..][..QUAD];
         let columns = &spheres[columns..][..QUAD];
-        let mut answers = 0;
-        for (row, &[x, y, z, half_square]) in rows.iter().enumerate() {
-            for (column, other) in columns.iter().enumerate() {
-                // Half the squared distance: |a|^2 / 2 + |b|^2 / 2 - a . b.
-                let half = half_square + other[3];
-                let half = x.neg_mul_add(other[0], half);
-                let half = y.neg_mul_add(other[1], half);
-                let half = z.neg_mul_add(other[2], half);
-                let place = row * QUAD + column;
-                let near = half.any_less(simd.splat(thresholds[place]));
-                answers |= Answers::from(near) << place;
-            }
-        }
+        let answers = S::Lanes::gather([
+            near(simd, &rows[0], columns, &thresholds[0]),
+            near(simd, &rows[1], columns, &thresholds[1]),
+            near(simd, &rows[2], columns, &thresholds[2]),
+            near(simd, &rows[3], columns, &thresholds[3]),
+        ]);
         survivors[count] = (number, answers);
-        count += usize::from(answers != 0);
+        count += usize::from(answers.any());
     }
     &survivors[..count]
+}
+
+/// Which of a quad's spheres one sphere may touch.
+#[inline(always)]
+fn near<S: Simd>(
+    simd: S,
+    [x, y, z, half_square]: &[S::Lanes; 4],
+    others: &[[S::Lanes; 4]],
+    thresholds: &[f32; QUAD],
+) -> <S::Lanes as Lanes>::Row {
+    let mut beyond = [*x; QUAD];
+    for place in 0..QUAD {
+        let other = &others[place];
+        // Half the squared distance: |a|^2 / 2 + |b|^2 / 2 - a . b.
+        let half = *half_square + other[3];
+        let half = x.neg_mul_add(other[0], half);
+        let half = y.neg_mul_add(other[1], half);
+        let half = z.neg_mul_add(other[2], half);
+        beyond[place] = half - simd.splat(thresholds[place]);
+    }
+    S::Lanes::any_negative(beyond)
 }

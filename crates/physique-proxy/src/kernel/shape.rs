@@ -52,8 +52,8 @@ pub(super) fn add_skin<S: Simd>(
     scale: S::Lanes,
     sums: &mut ShapeSums,
 ) {
-    for (by_reach, sum) in work.by_reaches.iter().zip(&mut sums.radii) {
-        *sum += total(*by_reach * scale);
+    for sphere in 0..work.by_reaches.len() {
+        sums.radii[sphere] += total(work.by_reaches[sphere] * scale);
     }
     add_centres(simd, &plan.blends.one, work, scale, sums);
     add_centres(simd, &plan.blends.two, work, scale, sums);
@@ -80,10 +80,10 @@ fn add_centres<S: Simd, const JOINTS: usize>(
     for blend in blends {
         let sphere = usize::from(blend.sphere);
         let [x, y, z] = work.by_spheres[sphere];
-        for (joint, arm) in blend.joints.iter().zip(&blend.arms) {
-            let scale = scale * simd.splat(arm.weight);
+        for joint in 0..JOINTS {
+            let scale = scale * simd.splat(blend.arms[joint].weight);
             let by_sphere = [x * scale, y * scale, z * scale];
-            let transform = &work.world_from_joint[usize::from(*joint)];
+            let transform = &work.world_from_joint[usize::from(blend.joints[joint])];
             add(
                 &mut sums.centres[sphere],
                 turned_back(transform, by_sphere),
@@ -96,7 +96,8 @@ fn add_centres<S: Simd, const JOINTS: usize>(
 /// Adds what reaches joints by the bones between them. `by_world` is complete.
 #[inline(always)]
 pub(super) fn add_joints<L: Lanes>(work: &Workspace<L>, sums: &mut ShapeSums) {
-    for (joint, by_world) in work.by_world.iter().enumerate() {
+    for joint in 0..Joint::COUNT {
+        let by_world = &work.by_world[joint];
         let position = [by_world[9], by_world[10], by_world[11]];
         if joint == 0 {
             add(&mut sums.rest_joints[0], position, 1.0);
@@ -122,8 +123,8 @@ fn turned_back<L: Lanes>(transform: &Transform<L>, [x, y, z]: [L; 3]) -> [L; 3] 
 
 #[inline(always)]
 fn add<L: Lanes>(sums: &mut [f64; 3], lanes: [L; 3], sign: f64) {
-    for (sum, lanes) in sums.iter_mut().zip(lanes) {
-        *sum += sign * total(lanes);
+    for axis in 0..3 {
+        sums[axis] += sign * total(lanes[axis]);
     }
 }
 
@@ -132,5 +133,9 @@ fn add<L: Lanes>(sums: &mut [f64; 3], lanes: [L; 3], sign: f64) {
 fn total<L: Lanes>(lanes: L) -> f64 {
     let mut numbers = [0.0; MOST_LANES];
     lanes.store(&mut numbers);
-    numbers.iter().copied().map(f64::from).sum()
+    let mut sum = 0.0;
+    for number in numbers {
+        sum += f64::from(number);
+    }
+    sum
 }

@@ -3,6 +3,7 @@
 use physique_body::Joint;
 
 use super::Workspace;
+use super::vectors::splat;
 use super::workspace::Transform;
 use crate::lanes::{Lanes, Simd};
 use crate::plan::{Blend, Plan};
@@ -27,15 +28,16 @@ fn blend<S: Simd, const JOINTS: usize>(
 ) {
     for blend in blends {
         let mut sum = [simd.splat(0.0); 3];
-        for (joint, arm) in blend.joints.iter().zip(&blend.arms) {
-            let transform = &world_from_joint[usize::from(*joint)];
-            let [x, y, z] = arm.weighted.map(|number| simd.splat(number));
+        for joint in 0..JOINTS {
+            let arm = &blend.arms[joint];
+            let transform = &world_from_joint[usize::from(blend.joints[joint])];
+            let [x, y, z] = splat(simd, arm.weighted);
             let weight = simd.splat(arm.weight);
-            for (row, sum) in sum.iter_mut().enumerate() {
-                *sum = weight.mul_add(transform[9 + row], *sum);
-                *sum = x.mul_add(transform[3 * row], *sum);
-                *sum = y.mul_add(transform[3 * row + 1], *sum);
-                *sum = z.mul_add(transform[3 * row + 2], *sum);
+            for row in 0..3 {
+                let with_x = x.mul_add(transform[3 * row], sum[row]);
+                let with_y = y.mul_add(transform[3 * row + 1], with_x);
+                let with_z = z.mul_add(transform[3 * row + 2], with_y);
+                sum[row] = weight.mul_add(transform[9 + row], with_z);
             }
         }
         let square = sum[0].mul_add(sum[0], sum[1].mul_add(sum[1], sum[2] * sum[2]));
@@ -54,19 +56,22 @@ pub(super) fn backward<S: Simd>(
     scale: S::Lanes,
 ) {
     let by_spheres = &work.by_spheres[..];
-    for (followers, by_world) in plan.followers.iter().zip(&mut work.by_world) {
+    for joint in 0..Joint::COUNT {
         let mut sum = [simd.splat(0.0); 12];
-        for influence in followers {
+        for influence in &plan.followers[joint] {
             let by_sphere = by_spheres[usize::from(influence.sphere)];
-            let arm = influence.arm.weighted.map(|number| simd.splat(number));
+            let arm = splat(simd, influence.arm.weighted);
             let weight = simd.splat(influence.arm.weight);
-            for (row, by_sphere) in by_sphere.into_iter().enumerate() {
-                for (column, arm) in arm.into_iter().enumerate() {
-                    sum[3 * row + column] = by_sphere.mul_add(arm, sum[3 * row + column]);
+            for row in 0..3 {
+                for column in 0..3 {
+                    let place = 3 * row + column;
+                    sum[place] = by_sphere[row].mul_add(arm[column], sum[place]);
                 }
-                sum[9 + row] = by_sphere.mul_add(weight, sum[9 + row]);
+                sum[9 + row] = by_sphere[row].mul_add(weight, sum[9 + row]);
             }
         }
-        *by_world = sum.map(|sum| sum * scale);
+        for place in 0..12 {
+            work.by_world[joint][place] = sum[place] * scale;
+        }
     }
 }

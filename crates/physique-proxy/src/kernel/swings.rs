@@ -8,6 +8,9 @@ use physique_motion::features::{GradientRule, RotationLayer};
 
 use super::Workspace;
 use super::kinematics::PARENTS;
+use super::vectors::{
+    add, add_to, cross, dot, multiply, outer, product, rotation, scale, splat, subtract, transpose,
+};
 use crate::lanes::{Lanes, Simd};
 
 /// The layer, laid out for the kernel.
@@ -173,10 +176,11 @@ fn swing<S: Simd>(
         zs * y + x,
         zs.mul_add(z, cosine),
     ];
-    if unfolded.any_less(one) {
-        for (entry, half_turn) in rotation.iter_mut().zip(rest.half_turn) {
-            let half_turn = simd.splat(half_turn).where_positive(one - unfolded);
-            *entry = entry.where_positive(unfolded) + half_turn;
+    if S::Lanes::any(unfolded.below(one)) {
+        for place in 0..9 {
+            let half_turn = simd.splat(rest.half_turn[place]);
+            rotation[place] =
+                rotation[place].where_positive(unfolded) + half_turn.where_positive(one - unfolded);
         }
     }
     let swing = Swing {
@@ -253,8 +257,11 @@ const ACROSS: [[usize; 2]; 2] = [
 
 #[inline(always)]
 fn across<L: Lanes>(joints: &[[L; 3]; Joint::COUNT]) -> [L; 3] {
-    let [hips, shoulders] = ACROSS.map(|[left, right]| subtract(joints[right], joints[left]));
-    add(hips, shoulders)
+    let [hips, shoulders] = ACROSS;
+    add(
+        subtract(joints[hips[1]], joints[hips[0]]),
+        subtract(joints[shoulders[1]], joints[shoulders[0]]),
+    )
 }
 
 impl<L: Lanes> Unit<L> {
@@ -294,85 +301,4 @@ fn unit<S: Simd>(simd: S, vector: [S::Lanes; 3], poison: &mut S::Lanes) -> Unit<
         direction: scale(vector, inverse_length),
         inverse_length,
     }
-}
-
-#[inline(always)]
-fn splat<S: Simd>(simd: S, vector: [f32; 3]) -> [S::Lanes; 3] {
-    vector.map(|number| simd.splat(number))
-}
-
-// Written out: closures are not sure to be compiled for the backend.
-
-#[inline(always)]
-fn add<L: Lanes>(a: [L; 3], b: [L; 3]) -> [L; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-#[inline(always)]
-fn subtract<L: Lanes>(a: [L; 3], b: [L; 3]) -> [L; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline(always)]
-fn scale<L: Lanes>(a: [L; 3], factor: L) -> [L; 3] {
-    [a[0] * factor, a[1] * factor, a[2] * factor]
-}
-
-#[inline(always)]
-fn dot<L: Lanes>(a: [L; 3], b: [L; 3]) -> L {
-    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
-}
-
-#[inline(always)]
-fn cross<L: Lanes>([ax, ay, az]: [L; 3], [bx, by, bz]: [L; 3]) -> [L; 3] {
-    [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
-}
-
-/// The rotation of a joint's transform.
-#[inline(always)]
-fn rotation<L: Lanes>(transform: &[L; 12]) -> [L; 9] {
-    let [a, b, c, d, e, f, g, h, i, ..] = *transform;
-    [a, b, c, d, e, f, g, h, i]
-}
-
-#[inline(always)]
-fn transpose<L: Lanes>([a, b, c, d, e, f, g, h, i]: &[L; 9]) -> [L; 9] {
-    [*a, *d, *g, *b, *e, *h, *c, *f, *i]
-}
-
-#[inline(always)]
-fn add_to<L: Lanes>(sum: &mut [L; 9], matrix: &[L; 9]) {
-    for (sum, entry) in sum.iter_mut().zip(matrix) {
-        *sum = *sum + *entry;
-    }
-}
-
-/// A v.
-#[inline(always)]
-fn multiply<L: Lanes>([a, b, c, d, e, f, g, h, i]: &[L; 9], v: [L; 3]) -> [L; 3] {
-    [
-        dot([*a, *b, *c], v),
-        dot([*d, *e, *f], v),
-        dot([*g, *h, *i], v),
-    ]
-}
-
-/// A B.
-#[inline(always)]
-fn product<L: Lanes>(a: &[L; 9], b: &[L; 9]) -> [L; 9] {
-    let mut product = *a;
-    for row in 0..3 {
-        let left = [a[3 * row], a[3 * row + 1], a[3 * row + 2]];
-        for column in 0..3 {
-            product[3 * row + column] = dot(left, [b[column], b[3 + column], b[6 + column]]);
-        }
-    }
-    product
-}
-
-/// a b^T.
-#[inline(always)]
-fn outer<L: Lanes>(a: [L; 3], b: [L; 3]) -> [L; 9] {
-    let [[r, s, t], [u, v, w], [x, y, z]] = [scale(b, a[0]), scale(b, a[1]), scale(b, a[2])];
-    [r, s, t, u, v, w, x, y, z]
 }

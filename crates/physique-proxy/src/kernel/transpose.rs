@@ -2,11 +2,16 @@
 
 use crate::lanes::{Lanes, MOST_LANES, Simd};
 
-/// Starts of the blocks that cover all numbers of a frame; the last one reaches back over its
-/// neighbour, so that none is cut.
+/// Where a block starts, of those that cover all numbers of a frame; the last one reaches back over
+/// its neighbour, so that none is cut.
 #[inline(always)]
-fn blocks(numbers: usize, count: usize) -> impl Iterator<Item = usize> {
-    (0..numbers.div_ceil(count)).map(move |block| (block * count).min(numbers - count))
+const fn start(block: usize, numbers: usize, count: usize) -> usize {
+    let start = block * count;
+    if start + count > numbers {
+        numbers - count
+    } else {
+        start
+    }
 }
 
 /// `frames` are as many as lanes, of as many numbers as `lanes`: a number that the compiler knows,
@@ -17,20 +22,22 @@ pub(super) fn load<S: Simd, const NUMBERS: usize>(
     frames: &[f32],
     lanes: &mut [S::Lanes],
 ) -> S::Lanes {
-    let frames = frames.as_chunks::<NUMBERS>().0;
+    let frames = &frames.as_chunks::<NUMBERS>().0[..S::COUNT];
+    let lanes = &mut lanes[..NUMBERS];
     let zero = simd.splat(0.0);
     // Four sums, so that none waits for the last.
     let mut poison = [zero; 4];
-    for start in blocks(NUMBERS, S::COUNT) {
-        let mut block = [simd.splat(0.0); MOST_LANES];
-        for (row, frame) in block.iter_mut().zip(&frames[..S::COUNT]) {
-            *row = simd.load(&frame[start..]);
+    for block in 0..NUMBERS.div_ceil(S::COUNT) {
+        let start = start(block, NUMBERS, S::COUNT);
+        let mut block = [zero; MOST_LANES];
+        for row in 0..S::COUNT {
+            block[row] = simd.load(&frames[row][start..]);
         }
         transpose::<S>(&mut block);
-        for (place, lane) in block[..S::COUNT].iter().enumerate() {
-            poison[place % 4] = lane.mul_add(zero, poison[place % 4]);
+        for row in 0..S::COUNT {
+            poison[row % 4] = block[row].mul_add(zero, poison[row % 4]);
+            lanes[start + row] = block[row];
         }
-        lanes[start..start + S::COUNT].copy_from_slice(&block[..S::COUNT]);
     }
     (poison[0] + poison[1]) + (poison[2] + poison[3])
 }
@@ -42,13 +49,17 @@ pub(super) fn store<S: Simd, const NUMBERS: usize>(
     lanes: &[S::Lanes],
     frames: &mut [f32],
 ) {
-    let frames = frames.as_chunks_mut::<NUMBERS>().0;
-    for start in blocks(NUMBERS, S::COUNT) {
+    let frames = &mut frames.as_chunks_mut::<NUMBERS>().0[..S::COUNT];
+    let lanes = &lanes[..NUMBERS];
+    for block in 0..NUMBERS.div_ceil(S::COUNT) {
+        let start = start(block, NUMBERS, S::COUNT);
         let mut block = [simd.splat(0.0); MOST_LANES];
-        block[..S::COUNT].copy_from_slice(&lanes[start..start + S::COUNT]);
+        for row in 0..S::COUNT {
+            block[row] = lanes[start + row];
+        }
         transpose::<S>(&mut block);
-        for (row, frame) in block.iter().zip(&mut frames[..S::COUNT]) {
-            row.store(&mut frame[start..]);
+        for row in 0..S::COUNT {
+            block[row].store(&mut frames[row][start..]);
         }
     }
 }

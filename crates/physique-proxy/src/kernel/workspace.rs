@@ -4,7 +4,7 @@ use physique_body::Joint;
 
 use super::MOST_NUMBERS;
 use super::swings::SwingWork;
-use crate::lanes::Simd;
+use crate::lanes::{Answers, Simd};
 use crate::plan::{Plan, QUAD};
 
 /// Rotation, row by row, and position.
@@ -28,7 +28,7 @@ pub(crate) struct Workspace<L> {
     /// Survivors of the broad phase.
     pub(crate) group_pairs: Vec<u32>,
     pub(crate) quad_pairs: Vec<u32>,
-    pub(crate) touching: Vec<(u32, u16)>,
+    pub(crate) touching: Vec<(u32, Answers)>,
     /// Positions, where they are given; on the way back, the loss's derivatives by them.
     pub(crate) joints: [[L; 3]; Joint::COUNT],
     pub(crate) swings: SwingWork<L>,
@@ -52,7 +52,7 @@ impl<L: Copy> Workspace<L> {
             // One more each: a survivor is written before it is counted.
             group_pairs: vec![0; plan.group_pairs.len() + 1],
             quad_pairs: vec![0; plan.quad_pairs.len() + 1],
-            touching: vec![(0, 0); plan.quad_pairs.len() + 1],
+            touching: vec![(0, Answers::default()); plan.quad_pairs.len() + 1],
             joints: [[zero; 3]; Joint::COUNT],
             swings: SwingWork::new(zero),
             frames: vec![0.0; S::COUNT * MOST_NUMBERS],

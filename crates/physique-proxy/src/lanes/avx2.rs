@@ -3,7 +3,7 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, Mul, Sub};
 
-use super::{Kernel, Lanes, Simd};
+use super::{Answers, Kernel, Lanes, Simd};
 
 /// Proof of AVX2 and FMA.
 #[derive(Clone, Copy)]
@@ -101,11 +101,6 @@ impl Lanes for F32x8 {
     }
 
     #[inline(always)]
-    fn any_less(self, other: Self) -> bool {
-        Self::any(self.below(other))
-    }
-
-    #[inline(always)]
     fn below(self, other: Self) -> Mask8 {
         // SAFETY: as above.
         Mask8(unsafe { _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0) })
@@ -115,6 +110,23 @@ impl Lanes for F32x8 {
     fn any(mask: Mask8) -> bool {
         // SAFETY: as above.
         unsafe { _mm256_movemask_ps(mask.0) != 0 }
+    }
+
+    type Row = u16;
+
+    #[inline(always)]
+    fn any_negative([a, b, c, d]: [Self; 4]) -> u16 {
+        // SAFETY: as above; so in the next three.
+        let a = u16::from(unsafe { _mm256_movemask_ps(a.0) } != 0);
+        let b = u16::from(unsafe { _mm256_movemask_ps(b.0) } != 0);
+        let c = u16::from(unsafe { _mm256_movemask_ps(c.0) } != 0);
+        let d = u16::from(unsafe { _mm256_movemask_ps(d.0) } != 0);
+        a | b << 4 | c << 8 | d << 12
+    }
+
+    #[inline(always)]
+    fn gather(rows: [u16; 4]) -> Answers {
+        Answers::of_rows(rows)
     }
 
     #[inline(always)]

@@ -1,17 +1,18 @@
-//! AVX-512F: 16 lanes.
+//! AVX-512F and BW: 16 lanes.
 
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, Mul, Sub};
 
-use super::{Kernel, Lanes, Simd};
+use super::{Answers, Kernel, Lanes, Simd};
 
-/// Proof of AVX-512F (and of AVX2 and FMA, which come with it).
+/// Proof of AVX-512F and BW (and of AVX2 and FMA, which come with them).
 #[derive(Clone, Copy)]
 pub(crate) struct Avx512(());
 
 impl Avx512 {
     pub(crate) fn detect() -> Option<Self> {
         let found = is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512bw")
             && is_x86_feature_detected!("avx2")
             && is_x86_feature_detected!("fma");
         found.then_some(Self(()))
@@ -35,20 +36,20 @@ impl Simd for Avx512 {
 
     #[inline(always)]
     fn splat(self, number: f32) -> F32x16 {
-        // SAFETY: `self` proves AVX-512F.
+        // SAFETY: `self` proves AVX-512.
         F32x16(unsafe { _mm512_set1_ps(number) })
     }
 
     #[inline(always)]
     fn load(self, lanes: &[f32]) -> F32x16 {
         let lanes: &[f32] = &lanes[..Self::COUNT];
-        // SAFETY: `self` proves AVX-512F, and there are 16 numbers.
+        // SAFETY: `self` proves AVX-512, and there are 16 numbers.
         F32x16(unsafe { _mm512_loadu_ps(lanes.as_ptr()) })
     }
 
     #[inline(always)]
     fn run<K: Kernel<Self>>(self, kernel: K) -> K::Output {
-        #[target_feature(enable = "avx512f,avx2,fma")]
+        #[target_feature(enable = "avx512f,avx512bw,avx2,fma")]
         fn compiled<K: Kernel<Avx512>>(simd: Avx512, kernel: K) -> K::Output {
             kernel.run(simd)
         }
@@ -62,7 +63,7 @@ impl Lanes for F32x16 {
 
     #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
-        // SAFETY: lanes prove AVX-512F; so in all functions below.
+        // SAFETY: lanes prove AVX-512F and BW; so in all functions below.
         Self(unsafe { _mm512_fmadd_ps(self.0, factor.0, term.0) })
     }
 
@@ -104,12 +105,6 @@ impl Lanes for F32x16 {
     }
 
     #[inline(always)]
-    fn any_less(self, other: Self) -> bool {
-        // SAFETY: as above.
-        unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, other.0) != 0 }
-    }
-
-    #[inline(always)]
     fn below(self, other: Self) -> Signs {
         // SAFETY: as above.
         Signs(unsafe { _mm512_castps_si512(_mm512_sub_ps(self.0, other.0)) })
@@ -119,6 +114,39 @@ impl Lanes for F32x16 {
     fn any(mask: Signs) -> bool {
         // SAFETY: as above.
         unsafe { _mm512_cmplt_epi32_mask(mask.0, _mm512_setzero_si512()) != 0 }
+    }
+
+    type Row = Signs;
+
+    #[inline(always)]
+    fn any_negative([a, b, c, d]: [Self; 4]) -> Signs {
+        // SAFETY: as above. Packing keeps signs: bytes of four `a`, four `b` and so on, in each quarter.
+        Signs(unsafe {
+            let ab = _mm512_packs_epi32(_mm512_castps_si512(a.0), _mm512_castps_si512(b.0));
+            let cd = _mm512_packs_epi32(_mm512_castps_si512(c.0), _mm512_castps_si512(d.0));
+            _mm512_packs_epi16(ab, cd)
+        })
+    }
+
+    #[inline(always)]
+    fn gather([a, b, c, d]: [Signs; 4]) -> Answers {
+        // SAFETY: as above. Quarters are united until each row has one.
+        let bits = unsafe {
+            let ab = _mm512_or_si512(
+                _mm512_shuffle_i64x2::<0x44>(a.0, b.0),
+                _mm512_shuffle_i64x2::<0xee>(a.0, b.0),
+            );
+            let cd = _mm512_or_si512(
+                _mm512_shuffle_i64x2::<0x44>(c.0, d.0),
+                _mm512_shuffle_i64x2::<0xee>(c.0, d.0),
+            );
+            let all = _mm512_or_si512(
+                _mm512_shuffle_i64x2::<0x88>(ab, cd),
+                _mm512_shuffle_i64x2::<0xdd>(ab, cd),
+            );
+            _mm512_movepi8_mask(all)
+        };
+        Answers::of_four_bits(bits)
     }
 
     #[inline(always)]

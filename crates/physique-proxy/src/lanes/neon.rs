@@ -3,7 +3,7 @@
 use std::arch::aarch64::*;
 use std::ops::{Add, BitAnd, Mul, Sub};
 
-use super::{Kernel, Lanes, Simd};
+use super::{Answers, Kernel, Lanes, Simd};
 
 /// Proof of NEON, which nearly every 64-bit Arm has.
 #[derive(Clone, Copy)]
@@ -100,11 +100,6 @@ impl Lanes for F32x4 {
     }
 
     #[inline(always)]
-    fn any_less(self, other: Self) -> bool {
-        Self::any(self.below(other))
-    }
-
-    #[inline(always)]
     fn below(self, other: Self) -> Mask4 {
         // SAFETY: as above.
         Mask4(unsafe { vcltq_f32(self.0, other.0) })
@@ -114,6 +109,23 @@ impl Lanes for F32x4 {
     fn any(mask: Mask4) -> bool {
         // SAFETY: as above.
         unsafe { vmaxvq_u32(mask.0) != 0 }
+    }
+
+    type Row = u16;
+
+    #[inline(always)]
+    fn any_negative([a, b, c, d]: [Self; 4]) -> u16 {
+        // SAFETY: as above. The least number as a signed integer has the sign that counts.
+        let negative = |lanes: Self| unsafe { vminvq_s32(vreinterpretq_s32_f32(lanes.0)) < 0 };
+        u16::from(negative(a))
+            | u16::from(negative(b)) << 4
+            | u16::from(negative(c)) << 8
+            | u16::from(negative(d)) << 12
+    }
+
+    #[inline(always)]
+    fn gather(rows: [u16; 4]) -> Answers {
+        Answers::of_rows(rows)
     }
 
     #[inline(always)]

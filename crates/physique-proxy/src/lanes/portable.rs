@@ -1,9 +1,8 @@
 //! Plain Rust: 4 lanes in an array, which compilers turn into whatever the target always has.
 
-use std::array::from_fn;
 use std::ops::{Add, BitAnd, Mul, Sub};
 
-use super::{Kernel, Lanes, Simd};
+use super::{Answers, Kernel, Lanes, Simd};
 
 /// Needs no proof.
 #[derive(Clone, Copy)]
@@ -19,6 +18,31 @@ pub(crate) struct Array(pub(crate) [f32; COUNT]);
 #[derive(Clone, Copy)]
 pub(crate) struct ArrayMask([bool; COUNT]);
 
+/// An array of what `$result` is in each lane. Written out, not by a closure: a kernel is so long that
+/// the compiler stops inlining those, which takes twenty times the time.
+macro_rules! each {
+    ($lane:ident => $result:expr) => {
+        [
+            {
+                let $lane = 0;
+                $result
+            },
+            {
+                let $lane = 1;
+                $result
+            },
+            {
+                let $lane = 2;
+                $result
+            },
+            {
+                let $lane = 3;
+                $result
+            },
+        ]
+    };
+}
+
 impl Simd for Portable {
     type Lanes = Array;
 
@@ -31,9 +55,8 @@ impl Simd for Portable {
 
     #[inline(always)]
     fn load(self, lanes: &[f32]) -> Array {
-        let mut array = [0.0; COUNT];
-        array.copy_from_slice(&lanes[..COUNT]);
-        Array(array)
+        let lanes = &lanes[..COUNT];
+        Array(each!(lane => lanes[lane]))
     }
 
     #[inline(always)]
@@ -58,7 +81,7 @@ impl Lanes for Array {
 
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        Self(from_fn(|lane| {
+        Self(each!(lane => {
             if self.0[lane] < other.0[lane] {
                 self.0[lane]
             } else {
@@ -69,7 +92,7 @@ impl Lanes for Array {
 
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        Self(from_fn(|lane| {
+        Self(each!(lane => {
             if self.0[lane] > other.0[lane] {
                 self.0[lane]
             } else {
@@ -80,12 +103,12 @@ impl Lanes for Array {
 
     #[inline(always)]
     fn inverse_sqrt(self) -> Self {
-        Self(from_fn(|lane| 1.0 / self.0[lane].sqrt()))
+        Self(each!(lane => 1.0 / self.0[lane].sqrt()))
     }
 
     #[inline(always)]
     fn where_positive(self, condition: Self) -> Self {
-        Self(from_fn(|lane| {
+        Self(each!(lane => {
             if condition.0[lane] > 0.0 {
                 self.0[lane]
             } else {
@@ -95,18 +118,28 @@ impl Lanes for Array {
     }
 
     #[inline(always)]
-    fn any_less(self, other: Self) -> bool {
-        Self::any(self.below(other))
-    }
-
-    #[inline(always)]
     fn below(self, other: Self) -> ArrayMask {
-        ArrayMask(from_fn(|lane| self.0[lane] < other.0[lane]))
+        ArrayMask(each!(lane => self.0[lane] < other.0[lane]))
     }
 
     #[inline(always)]
     fn any(mask: ArrayMask) -> bool {
         mask.0 != [false; COUNT]
+    }
+
+    type Row = u16;
+
+    #[inline(always)]
+    fn any_negative([a, b, c, d]: [Self; 4]) -> u16 {
+        u16::from(a.negative())
+            | u16::from(b.negative()) << 4
+            | u16::from(c.negative()) << 8
+            | u16::from(d.negative()) << 12
+    }
+
+    #[inline(always)]
+    fn gather(rows: [u16; 4]) -> Answers {
+        Answers::of_rows(rows)
     }
 
     #[inline(always)]
@@ -117,7 +150,19 @@ impl Lanes for Array {
 
     #[inline(always)]
     fn store(self, lanes: &mut [f32]) {
-        lanes[..COUNT].copy_from_slice(&self.0);
+        let lanes = &mut lanes[..COUNT];
+        for lane in 0..COUNT {
+            lanes[lane] = self.0[lane];
+        }
+    }
+}
+
+impl Array {
+    /// Whether any lane is negative: one look at all signs.
+    #[inline(always)]
+    fn negative(self) -> bool {
+        let [a, b, c, d] = self.0;
+        (a.to_bits() | b.to_bits() | c.to_bits() | d.to_bits()) >> 31 == 1
     }
 }
 
@@ -126,7 +171,7 @@ impl BitAnd for ArrayMask {
 
     #[inline(always)]
     fn bitand(self, other: Self) -> Self {
-        Self(from_fn(|lane| self.0[lane] & other.0[lane]))
+        Self(each!(lane => self.0[lane] & other.0[lane]))
     }
 }
 
@@ -135,7 +180,7 @@ impl Add for Array {
 
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self(from_fn(|lane| self.0[lane] + other.0[lane]))
+        Self(each!(lane => self.0[lane] + other.0[lane]))
     }
 }
 
@@ -144,7 +189,7 @@ impl Sub for Array {
 
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self(from_fn(|lane| self.0[lane] - other.0[lane]))
+        Self(each!(lane => self.0[lane] - other.0[lane]))
     }
 }
 
@@ -153,6 +198,6 @@ impl Mul for Array {
 
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self(from_fn(|lane| self.0[lane] * other.0[lane]))
+        Self(each!(lane => self.0[lane] * other.0[lane]))
     }
 }

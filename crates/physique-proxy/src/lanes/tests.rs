@@ -26,6 +26,7 @@ impl<S: Simd> Kernel<S> for Check {
     fn run(self, simd: S) {
         arithmetic(simd);
         comparisons(simd);
+        answers(simd);
         zips(simd);
     }
 }
@@ -77,8 +78,6 @@ fn arithmetic<S: Simd>(simd: S) {
 #[inline(always)]
 fn comparisons<S: Simd>(simd: S) {
     let (one, two, nan) = (simd.splat(1.0), simd.splat(2.0), simd.splat(f32::NAN));
-    assert!(one.any_less(two) && !two.any_less(one) && !one.any_less(one));
-    assert!(!nan.any_less(one) && !one.any_less(nan));
     assert!(S::Lanes::any(one.below(two)));
     assert!(!S::Lanes::any(two.below(one)));
     assert!(!S::Lanes::any(one.below(one)));
@@ -87,9 +86,31 @@ fn comparisons<S: Simd>(simd: S) {
         let mut numbers = [1.0; MOST_LANES];
         numbers[lane] = 3.0;
         let numbers = simd.load(&numbers);
-        assert!(two.any_less(numbers) && !numbers.any_less(one));
         assert!(S::Lanes::any(two.below(numbers)));
         assert!(!S::Lanes::any(two.below(numbers) & two.below(one)));
+    }
+}
+
+/// Each answer by itself, from each lane.
+#[inline(always)]
+fn answers<S: Simd>(simd: S) {
+    let (zero, infinite) = (simd.splat(0.0), simd.splat(f32::INFINITY));
+    for place in 0..16 {
+        for lane in 0..S::COUNT {
+            let mut numbers = [2.0; MOST_LANES];
+            numbers[lane] = -1e-30;
+            let mut rows = [[zero, infinite, zero, zero]; 4];
+            rows[place / 4][place % 4] = simd.load(&numbers);
+            let [a, b, c, d] = rows;
+            let mut answers = S::Lanes::gather([
+                S::Lanes::any_negative(a),
+                S::Lanes::any_negative(b),
+                S::Lanes::any_negative(c),
+                S::Lanes::any_negative(d),
+            ]);
+            assert!(answers.any());
+            assert_eq!([answers.pop(), answers.pop()], [Some(place), None]);
+        }
     }
 }
 
