@@ -12,7 +12,7 @@
 //!
 //! Stages go by index where lanes are concerned: a closure, and an iterator that holds one, is inlined
 //! only where the compiler pleases, and what is not is compiled for the least processor.
-#![allow(clippy::needless_range_loop)]
+#![allow(clippy::needless_range_loop, clippy::manual_memcpy)]
 
 mod bounds;
 mod contacts;

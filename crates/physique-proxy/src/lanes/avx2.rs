@@ -116,12 +116,19 @@ impl Lanes for F32x8 {
 
     #[inline(always)]
     fn any_negative([a, b, c, d]: [Self; 4]) -> u16 {
-        // SAFETY: as above; so in the next three.
-        let a = u16::from(unsafe { _mm256_movemask_ps(a.0) } != 0);
-        let b = u16::from(unsafe { _mm256_movemask_ps(b.0) } != 0);
-        let c = u16::from(unsafe { _mm256_movemask_ps(c.0) } != 0);
-        let d = u16::from(unsafe { _mm256_movemask_ps(d.0) } != 0);
-        a | b << 4 | c << 8 | d << 12
+        // SAFETY: as above.
+        let [a, b, c, d] = unsafe {
+            [
+                _mm256_movemask_ps(a.0),
+                _mm256_movemask_ps(b.0),
+                _mm256_movemask_ps(c.0),
+                _mm256_movemask_ps(d.0),
+            ]
+        };
+        u16::from(a != 0)
+            | u16::from(b != 0) << 4
+            | u16::from(c != 0) << 8
+            | u16::from(d != 0) << 12
     }
 
     #[inline(always)]
