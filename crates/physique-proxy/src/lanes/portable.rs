@@ -150,10 +150,7 @@ impl Lanes for Array {
 
     #[inline(always)]
     fn store(self, lanes: &mut [f32]) {
-        let lanes = &mut lanes[..COUNT];
-        for lane in 0..COUNT {
-            lanes[lane] = self.0[lane];
-        }
+        lanes[..COUNT].copy_from_slice(&self.0);
     }
 }
 
