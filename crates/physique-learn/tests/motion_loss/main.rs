@@ -1,0 +1,4 @@
+//! Losses of predicted motions.
+
+mod feet;
+mod operation;
