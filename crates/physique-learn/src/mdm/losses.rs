@@ -34,9 +34,24 @@ impl FrameMask {
         }
     }
 
+    /// Which steps from one frame to the next count: those to frames within a motion.
+    ///
+    /// # Errors
+    /// [`Error::Input`] when motions have no two frames.
+    pub(super) fn of_steps(&self) -> Result<Self, Error> {
+        let [_, frames, _] = self.within.dims();
+        if frames < 2 {
+            return Err(Error::input("Motions", "two frames or more", frames));
+        }
+        Ok(Self {
+            within: self.within.clone().narrow(1, 1, frames - 1),
+            lengths: self.lengths.clone() - 1.0,
+        })
+    }
+
     /// Squared differences of each motion, `[batch]`: their sum over frames within the motion,
     /// divided by the motion's frames and by `columns`.
-    fn mean(&self, squares: Tensor<3>, columns: usize) -> Tensor<1> {
+    pub(super) fn mean(&self, squares: Tensor<3>, columns: usize) -> Tensor<1> {
         let sums = (squares * self.within.clone()).sum_dims_squeeze::<1, _>(&[1, 2]);
         // As published; no motion is without frames.
         sums / (self.lengths.clone() * columns as f64 + 1e-8)

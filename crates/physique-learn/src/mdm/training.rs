@@ -3,14 +3,14 @@
 use burn::tensor::{Device, Tensor};
 use physique_motion::features::FeatureLayout;
 use physique_motion::features::FeatureStatistics;
-use serde::{Deserialize, Serialize};
 
 use super::losses::{FrameMask, squared_error, velocity_error};
-use super::{Condition, Mdm, MdmQuery};
+use super::rotation_losses::{foot_contact_error, joint_error, rotation_velocity_error};
+use super::{Condition, Mdm, MdmQuery, MdmTraining, RotationSkeleton};
 use crate::Error;
 use crate::diffusion::{Schedule, add_noise};
 use crate::layers::Dropout;
-use crate::motion_loss::{GroundLoss, SelfIntersectionLoss, SlidingLoss, WeightedLoss};
+use crate::motion_loss::WeightedLoss;
 use crate::random::Random;
 use crate::tensors::tensor;
 use crate::trainer::{BatchCondition, Loss, MotionBatch, MotionSource, Part, Task};
@@ -18,112 +18,38 @@ use crate::trainer::{BatchCondition, Loss, MotionBatch, MotionSource, Part, Task
 /// Told apart from all other uses of a seed.
 const PURPOSE: u64 = 0x006D_646D_6D64;
 
-/// How a motion diffusion model is trained. The default is as published.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct MdmTraining {
-    /// Motions a step.
-    pub batch: usize,
-    /// Steps of diffusion.
-    pub diffusion_steps: usize,
-    /// Factor of the signal-to-noise ratio of every step, see [`Schedule::with_signal`].
-    pub signal: f64,
-    /// Share of motions that are learnt without their condition, for classifier-free guidance.
-    pub unconditioned: f64,
-    /// Weight of the squared error in the root's four columns, where that of all others is 1.
-    pub root_weight: f64,
-    /// Weight of the squared error of how joints' positions change from frame to frame, measured
-    /// in deviations of their velocities.
-    pub velocity_weight: f64,
-    /// Weight of the self-intersection of the predicted motions: lambda_SI of SIA-MDM, 0.01 for
-    /// HumanML3D and 0.0001 for KIT; see [`SelfIntersectionLoss`].
-    pub self_intersection_weight: f64,
-    /// Weight of feet in the ground or above it, see [`GroundLoss`].
-    pub ground_weight: f64,
-    /// Weight of sliding feet, see [`SlidingLoss`].
-    pub sliding_weight: f64,
-}
-
-impl Default for MdmTraining {
-    fn default() -> Self {
-        Self {
-            batch: 64,
-            diffusion_steps: 1000,
-            signal: 1.0,
-            unconditioned: 0.1,
-            root_weight: 1.0,
-            velocity_weight: 0.0,
-            self_intersection_weight: 0.0,
-            ground_weight: 0.0,
-            sliding_weight: 0.0,
-        }
-    }
-}
-
-impl MdmTraining {
-    /// The schedule of diffusion.
-    ///
-    /// # Errors
-    /// [`Error::Setting`] for steps or a signal that cannot be.
-    pub fn schedule(&self) -> Result<Schedule, Error> {
-        Schedule::cosine(self.diffusion_steps)?.with_signal(self.signal)
-    }
-
-    fn check(&self) -> Result<(), Error> {
-        if self.batch == 0 {
-            return Err(Error::setting("batch", "1 or more", self.batch));
-        }
-        if !(0.0..=1.0).contains(&self.unconditioned) {
-            return Err(Error::setting(
-                "unconditioned",
-                "0 to 1",
-                self.unconditioned,
-            ));
-        }
-        for (what, found) in [
-            ("root_weight", self.root_weight),
-            ("velocity_weight", self.velocity_weight),
-            ("self_intersection_weight", self.self_intersection_weight),
-            ("ground_weight", self.ground_weight),
-            ("sliding_weight", self.sliding_weight),
-        ] {
-            if !(found.is_finite() && found >= 0.0) {
-                return Err(Error::setting(what, "a finite number from 0", found));
-            }
-        }
-        Ok(())
-    }
-
-    /// Losses of the predicted motions that have a weight; bodies are the embedded one.
-    fn motion_losses(&self, statistics: &FeatureStatistics) -> Result<Vec<WeightedLoss>, Error> {
-        let mut losses = Vec::new();
-        if self.self_intersection_weight > 0.0 {
-            let loss = SelfIntersectionLoss::embedded(statistics)?;
-            let weight = self.self_intersection_weight;
-            losses.push(WeightedLoss::new("self_intersection", weight, loss)?);
-        }
-        if self.ground_weight > 0.0 {
-            let loss = GroundLoss::new(statistics.clone());
-            losses.push(WeightedLoss::new("ground", self.ground_weight, loss)?);
-        }
-        if self.sliding_weight > 0.0 {
-            let loss = SlidingLoss::new(statistics.clone());
-            losses.push(WeightedLoss::new("sliding", self.sliding_weight, loss)?);
-        }
-        Ok(losses)
-    }
-}
-
 /// Trains a motion diffusion model on motions.
 #[derive(Debug)]
 pub struct MdmTask<S> {
     source: S,
     training: MdmTraining,
     schedule: Schedule,
-    layout: FeatureLayout,
-    /// Deviations of joints' positions over those of their velocities.
-    velocity_factor: f64,
+    motions: Representation,
     motion_losses: Vec<WeightedLoss>,
+}
+
+/// What the columns of motions are.
+#[derive(Debug)]
+enum Representation {
+    Features {
+        layout: FeatureLayout,
+        /// Deviations of joints' positions over those of their velocities.
+        velocity_factor: f64,
+    },
+    Rotations(RotationSkeleton),
+}
+
+/// The parts of a loss by name, and their weighted sum.
+struct Sum {
+    total: Tensor<1>,
+    parts: Vec<(&'static str, Tensor<1>)>,
+}
+
+impl Sum {
+    fn add(&mut self, name: &'static str, weight: f64, part: Tensor<1>) {
+        self.total = self.total.clone() + part.clone() * weight;
+        self.parts.push((name, part));
+    }
 }
 
 /// Motions of a step with noise, and what there is to know of them.
@@ -147,6 +73,7 @@ impl<S: MotionSource> MdmTask<S> {
         training: MdmTraining,
     ) -> Result<Self, Error> {
         training.check()?;
+        training.check_features()?;
         let columns = statistics.mean().len();
         if source.columns() != columns {
             let expected = format!("{columns} columns, as of the statistics");
@@ -154,11 +81,41 @@ impl<S: MotionSource> MdmTask<S> {
         }
         let layout = FeatureLayout::of(statistics.skeleton());
         let deviation = |column: usize| f64::from(statistics.deviation()[column]);
+        let velocity_factor =
+            deviation(layout.positions.start) / deviation(layout.velocities.start);
         Ok(Self {
-            velocity_factor: deviation(layout.positions.start) / deviation(layout.velocities.start),
             schedule: training.schedule()?,
-            layout,
+            motions: Representation::Features {
+                layout,
+                velocity_factor,
+            },
             motion_losses: training.motion_losses(statistics)?,
+            training,
+            source,
+        })
+    }
+
+    /// A task for motions that are rotations, not normalised, as MDM's models of actions have them.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for settings that cannot be, or that are for features; [`Error::Input`]
+    /// when source and skeleton are of different motions.
+    pub fn of_rotations(
+        source: S,
+        skeleton: RotationSkeleton,
+        training: MdmTraining,
+    ) -> Result<Self, Error> {
+        training.check()?;
+        training.check_rotations()?;
+        let columns = skeleton.columns();
+        if source.columns() != columns {
+            let expected = format!("{columns} columns, as of the skeleton");
+            return Err(Error::input("Motions", expected, source.columns()));
+        }
+        Ok(Self {
+            schedule: training.schedule()?,
+            motions: Representation::Rotations(skeleton),
+            motion_losses: Vec::new(),
             training,
             source,
         })
@@ -199,13 +156,82 @@ impl<S: MotionSource> MdmTask<S> {
     /// `[1][1][columns]`: what columns weigh; `None` where all weigh 1.
     fn column_weights(&self, device: &Device) -> Option<Tensor<3>> {
         let weight = self.training.root_weight;
+        let Representation::Features { layout, .. } = &self.motions else {
+            return None;
+        };
         if weight == 1.0 {
             return None;
         }
         let columns = self.source.columns();
         let mut weights = vec![1.0; columns];
-        weights[..=self.layout.root_height].fill(weight as f32);
+        weights[..=layout.root_height].fill(weight as f32);
         Some(tensor(weights, [1, 1, columns], device))
+    }
+
+    /// Everything that is made small, of predicted and clean motions.
+    fn sum(&self, predicted: Tensor<3>, clean: Tensor<3>, lengths: &[usize]) -> Result<Sum, Error> {
+        let frames = clean.dims()[1];
+        let mask = FrameMask::new(lengths, frames, &clean);
+        let weights = self.column_weights(&clean.device());
+        let error = squared_error(predicted.clone(), clean.clone(), &mask, weights).mean();
+        let mut sum = Sum {
+            total: error.clone(),
+            parts: vec![("squared_error", error)],
+        };
+        let weight = self.training.velocity_weight;
+        match &self.motions {
+            Representation::Features {
+                layout,
+                velocity_factor,
+            } if weight > 0.0 => {
+                let (predicted, columns) = (predicted.clone(), layout.positions.clone());
+                let error = velocity_error(predicted, clean, &mask, columns, *velocity_factor)?;
+                sum.add("velocity_error", weight, error.mean());
+            }
+            Representation::Features { .. } => {}
+            Representation::Rotations(skeleton) => {
+                self.add_rotation_losses(&mut sum, skeleton, [predicted.clone(), clean], &mask)?;
+            }
+        }
+        for term in &self.motion_losses {
+            let mean = term.mean(predicted.clone(), lengths);
+            sum.add(term.name(), term.weight(), mean);
+        }
+        Ok(sum)
+    }
+
+    /// The published geometric losses, of predicted and clean motions.
+    fn add_rotation_losses(
+        &self,
+        sum: &mut Sum,
+        skeleton: &RotationSkeleton,
+        motions: [Tensor<3>; 2],
+        mask: &FrameMask,
+    ) -> Result<(), Error> {
+        let MdmTraining {
+            velocity_weight,
+            joint_weight,
+            foot_contact_weight,
+            ..
+        } = self.training;
+        if velocity_weight > 0.0 {
+            let [predicted, clean] = motions.clone();
+            let error = rotation_velocity_error(skeleton, predicted, clean, mask)?;
+            sum.add("velocity_error", velocity_weight, error.mean());
+        }
+        if joint_weight == 0.0 && foot_contact_weight == 0.0 {
+            return Ok(());
+        }
+        let [predicted, clean] = motions.map(|motions| skeleton.positions(motions));
+        if joint_weight > 0.0 {
+            let error = joint_error(predicted.clone(), clean.clone(), mask);
+            sum.add("joint_error", joint_weight, error.mean());
+        }
+        if foot_contact_weight > 0.0 {
+            let error = foot_contact_error(predicted, clean, mask)?;
+            sum.add("foot_contact_error", foot_contact_weight, error.mean());
+        }
+        Ok(())
     }
 }
 
@@ -241,23 +267,7 @@ impl<S: MotionSource> Task for MdmTask<S> {
         let dropout = dropout.of_part(first as u64);
         let predicted = network.forward(query, &dropout)?;
 
-        let mask = FrameMask::new(&batch.lengths, batch.frames, &noised.clean);
-        let weights = self.column_weights(&device);
-        let error = squared_error(predicted.clone(), noised.clean.clone(), &mask, weights).mean();
-        let mut parts = vec![("squared_error", error.clone())];
-        let mut total = error;
-        if self.training.velocity_weight > 0.0 {
-            let (columns, factor) = (self.layout.positions.clone(), self.velocity_factor);
-            let predicted = predicted.clone();
-            let error = velocity_error(predicted, noised.clean, &mask, columns, factor)?.mean();
-            total = total + error.clone() * self.training.velocity_weight;
-            parts.push(("velocity_error", error));
-        }
-        for term in &self.motion_losses {
-            let mean = term.mean(predicted.clone(), &batch.lengths);
-            total = total + mean.clone() * term.weight();
-            parts.push((term.name(), mean));
-        }
+        let Sum { total, parts } = self.sum(predicted, noised.clean, &batch.lengths)?;
         Ok(Loss { total, parts })
     }
 }
