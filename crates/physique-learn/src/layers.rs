@@ -21,7 +21,7 @@ pub use decoder::{DecoderLayer, Memory, TransformerDecoder};
 pub use dropout::Dropout;
 pub use embedding::Embedding;
 pub use encoder::{EncoderLayer, LayerSizes, NormPlace, TransformerEncoder};
-pub use gru::BidirectionalGru;
+pub use gru::{BidirectionalGru, Gru};
 pub use initialiser::Initialiser;
 pub use layer_norm::LayerNorm;
 pub use linear::Linear;

@@ -14,6 +14,7 @@ mod generate;
 pub mod losses;
 mod network;
 mod plan;
+mod plan_motions;
 mod published;
 pub mod rotation_losses;
 mod rotation_skeleton;
@@ -24,12 +25,15 @@ mod training;
 mod training_settings;
 
 pub use condition::Condition;
-pub use config::{Architecture, ConditionKind, MdmConfig};
+pub use config::{Architecture, ConditionKind, MdmConfig, PlannerConfig};
 pub use folder::{MdmDescription, MdmFolder};
 pub use generate::{GenerateRequest, generate, generate_whole};
 pub use network::{Mdm, MdmQuery};
 pub use plan::{MdmPlan, PLANS, WindowPlan};
-pub use published::{PublishedArguments, from_parameters, parameters_of, read_published};
+pub use plan_motions::plan_motions;
+pub use published::{
+    PUBLISHED_NAMES, PublishedArguments, from_parameters, parameters_of, read_published,
+};
 pub use rotation_skeleton::RotationSkeleton;
 pub use start::{Origin, StartingNetwork};
 pub use text_to_motion::{KnownMotion, Prompt, Sampling, TextToMotion};

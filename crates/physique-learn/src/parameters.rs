@@ -27,12 +27,18 @@ pub struct ParameterArray {
 }
 
 /// How a network's fields are called in published files: pairs of our path and theirs, for the
-/// path itself and all that begins with it. What no pair begins with keeps its name.
+/// path itself and all that begins with it, or, where they have a `*` for a number, for the whole path.
+/// What no pair is for keeps its name.
 pub type NameTable = &'static [(&'static str, &'static str)];
 
 /// The published name of one of our paths.
 fn published(path: &str, table: NameTable) -> String {
     let pairs = table.iter().filter_map(|(ours, theirs)| {
+        if let Some((before, behind)) = ours.split_once('*') {
+            let number = path.strip_prefix(before)?.strip_suffix(behind)?;
+            let is_number = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
+            return is_number.then(|| theirs.replace('*', number));
+        }
         let rest = path.strip_prefix(ours)?;
         let whole = rest.is_empty() || rest.starts_with('.');
         whole.then(|| format!("{theirs}{rest}"))
@@ -209,5 +215,14 @@ mod tests {
             published("encoder.layers.0.w", table),
             "seqEncoder.layers.0.w"
         );
+        let table = &[("gru.layers.*.bias", "gru.bias_l*")];
+        assert_eq!(published("gru.layers.12.bias", table), "gru.bias_l12");
+        for other in [
+            "gru.layers.1.2.bias",
+            "gru.layers..bias",
+            "gru.layers.1.bias.x",
+        ] {
+            assert_eq!(published(other, table), other);
+        }
     }
 }

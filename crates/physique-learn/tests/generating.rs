@@ -41,6 +41,7 @@ fn motions(captions: &[&str], lengths: &[usize], seeds: &[u64], guidance: f64) -
         guidance,
         edit: None,
         guides: &[],
+        context: None,
     };
     let mut told = Vec::new();
     let motions = generate(&network(), &sampler(), request, |left| told.push(left));
@@ -84,6 +85,7 @@ fn what_is_known_stays() {
         guidance: 2.5,
         edit: Some(&batch),
         guides: &[],
+        context: None,
     };
     let motions = generate(&network(), &sampler(), request, |_| ()).expect("it fits");
     let kept = motions[0].iter().zip(edit.kept());
@@ -107,6 +109,7 @@ fn what_does_not_fit_is_refused() {
             guidance: 2.5,
             edit: None,
             guides: &[],
+            context: None,
         };
         let refused = generate(&network, &sampler, request, |_| ());
         refused.expect_err("it does not fit").to_string()

@@ -57,6 +57,7 @@ fn sample(
         guidance: 1.0,
         edit: edit.as_ref(),
         guides,
+        context: None,
     };
     let sampler = Sampler::new(Schedule::cosine(10).expect("in range"), method);
     generate(&network(), &sampler, request, |_| ()).expect("it fits")
@@ -141,6 +142,7 @@ fn motions_are_guided_one_by_one() {
         guidance: 1.0,
         edit: None,
         guides: &guides,
+        context: None,
     };
     let sampler = Sampler::new(Schedule::cosine(10).expect("in range"), Method::Ancestral);
     let alone = generate(&network(), &sampler, request, |_| ()).expect("it fits");

@@ -82,9 +82,8 @@ fn reference(predicted: &[f64], clean: &[f64]) -> [[f64; 2]; 3] {
         let length = LENGTHS[motion];
         let mut sums = [0.0; 3];
         for frame in 0..length {
-            for joint in 0..24 {
-                sums[1] += at[0][frame][joint].distance_squared(at[1][frame][joint]);
-            }
+            let joints = at[0][frame].iter().zip(&at[1][frame]);
+            sums[1] += joints.map(|(a, b)| a.distance_squared(*b)).sum::<f64>();
             if frame + 1 == length {
                 break;
             }

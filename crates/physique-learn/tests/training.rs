@@ -8,7 +8,9 @@ use std::time::{Duration, Instant};
 use burn::tensor::Device;
 use physique_learn::Error;
 use physique_learn::layers::NormPlace;
-use physique_learn::mdm::{ConditionKind, Mdm, MdmConfig, MdmTask, MdmTraining, parameters_of};
+use physique_learn::mdm::{
+    Architecture, ConditionKind, Mdm, MdmConfig, MdmTask, MdmTraining, PlannerConfig, parameters_of,
+};
 use physique_learn::random::Random;
 use physique_learn::text::Embeddings;
 use physique_learn::trainer::{
@@ -322,4 +324,54 @@ fn a_batch_may_be_shared_among_devices() {
         .expect_err("4 motions for 3")
         .to_string();
     assert!(told.contains("a multiple of 3"), "{told}");
+}
+
+#[test]
+fn a_planner_learns_to_go_on() {
+    let loss = |context: usize| {
+        let skeleton = FeatureSkeleton::HumanMl3d;
+        let statistics = FeatureStatistics::new(skeleton, vec![0.0; COLUMNS], vec![1.0; COLUMNS]);
+        let training = MdmTraining {
+            batch: 4,
+            diffusion_steps: 10,
+            velocity_weight: 0.5,
+            ..MdmTraining::default()
+        };
+        let task = MdmTask::new(
+            Waves { broken: None },
+            &statistics.expect("possible"),
+            training,
+        );
+        let network = MdmConfig {
+            width: 16,
+            layers: 1,
+            heads: 2,
+            feed_forward: 32,
+            condition: ConditionKind::Sentence { width: 2 },
+            architecture: Architecture::Decoder,
+            mask_frames: true,
+            planner: Some(PlannerConfig {
+                context,
+                prediction: 4,
+            }),
+            ..MdmConfig::default()
+        };
+        let folder = tempfile::tempdir().expect("a folder");
+        let network = Mdm::new(&network, 5, &Device::flex().autodiff()).expect("possible");
+        let task = task.expect("it fits");
+        let mut trainer = Trainer::open(task, network, config(60), folder.path())?;
+        let mut losses = Vec::new();
+        trainer.run(|report| {
+            losses.push(report.loss);
+            true
+        })?;
+        Ok::<_, Error>(losses)
+    };
+    let losses = loss(4).expect("finite");
+    let mean = |losses: &[f64]| losses.iter().sum::<f64>() / losses.len() as f64;
+    let (first, last) = (mean(&losses[..10]), mean(&losses[50..]));
+    assert!(last < 0.8 * first, "{first} {last}");
+    // Motions of five frames cannot be gone on with after five.
+    let told = loss(5).expect_err("too short").to_string();
+    assert!(told.contains("more than the 5 frames"), "{told}");
 }

@@ -1,4 +1,4 @@
-//! `torch.nn.GRU` with one layer, in both directions.
+//! `torch.nn.GRU`: one layer in both directions, or several in one.
 
 use burn::module::{Module, Param};
 use burn::tensor::activation::sigmoid;
@@ -75,6 +75,62 @@ impl BidirectionalGru {
     }
 }
 
+/// Several layers, each forwards over what the one before says of every step.
+#[derive(Module, Debug)]
+pub struct Gru {
+    layers: Vec<GruLayer>,
+}
+
+/// Parameters of a layer; PyTorch ends their names by the layer's number.
+#[derive(Module, Debug)]
+struct GruLayer {
+    weight_ih: Param<Tensor<2>>,
+    weight_hh: Param<Tensor<2>>,
+    bias_ih: Param<Tensor<1>>,
+    bias_hh: Param<Tensor<1>>,
+}
+
+impl Gru {
+    /// New layers of `width` inputs and as many outputs, with PyTorch's distribution of parameters.
+    pub fn new(layers: usize, width: usize, initialiser: &mut Initialiser) -> Self {
+        let bound = (width.max(1) as f64).sqrt().recip();
+        let mut weight = || initialiser.uniform([3 * width, width], bound);
+        let weights: Vec<_> = (0..layers).map(|_| [weight(), weight()]).collect();
+        let mut bias = || initialiser.uniform([3 * width], bound);
+        let layers = weights.into_iter().map(|[weight_ih, weight_hh]| GruLayer {
+            weight_ih,
+            weight_hh,
+            bias_ih: bias(),
+            bias_hh: bias(),
+        });
+        Self {
+            layers: layers.collect(),
+        }
+    }
+
+    /// The states of the last layer after every step, `[batch][steps][width]`, from states of zeros;
+    /// `x` is of the same shape.
+    pub fn forward(&self, x: Tensor<3>) -> Tensor<3> {
+        self.layers.iter().fold(x, |x, layer| {
+            let [batch, steps, width] = x.dims();
+            let direction = Direction {
+                from_input: layer.weight_ih.val(),
+                from_state: layer.weight_hh.val(),
+                input_bias: layer.bias_ih.val(),
+                state_bias: layer.bias_hh.val(),
+            };
+            let inputs = direction.inputs(x);
+            let mut state = Tensor::zeros([batch, width], &inputs.device());
+            let states = (0..steps).map(|step| {
+                let input = inputs.clone().narrow(1, step, 1).squeeze_dim::<2>(1);
+                state = direction.next(&input, state.clone());
+                state.clone()
+            });
+            Tensor::stack(states.collect(), 1)
+        })
+    }
+}
+
 /// Parameters of one direction.
 struct Direction {
     from_input: Tensor<2>,
@@ -84,6 +140,28 @@ struct Direction {
 }
 
 impl Direction {
+    /// What the inputs of all steps add to the gates: only the state has to wait for the step before.
+    fn inputs(&self, x: Tensor<3>) -> Tensor<3> {
+        let weight = self.from_input.clone().transpose();
+        linear(x, weight, Some(self.input_bias.clone()))
+    }
+
+    /// The state after a step, of what its input adds to the gates and the state before it.
+    fn next(&self, input: &Tensor<2>, state: Tensor<2>) -> Tensor<2> {
+        let hidden = state.dims()[1];
+        let recurrent = linear(
+            state.clone(),
+            self.from_state.clone().transpose(),
+            Some(self.state_bias.clone()),
+        );
+        let gate =
+            |tensor: &Tensor<2>, index: usize| tensor.clone().narrow(1, index * hidden, hidden);
+        let reset = sigmoid(gate(input, 0) + gate(&recurrent, 0));
+        let update = sigmoid(gate(input, 1) + gate(&recurrent, 1));
+        let new = (gate(input, 2) + reset * gate(&recurrent, 2)).tanh();
+        new.clone() + update * (state - new)
+    }
+
     fn run(
         &self,
         x: Tensor<3>,
@@ -91,28 +169,12 @@ impl Direction {
         start: Tensor<2>,
         order: impl Iterator<Item = usize>,
     ) -> Tensor<2> {
-        let [batch, hidden] = start.dims();
-        let device = x.device();
-        // All inputs at once; only the state has to wait for the step before.
-        let inputs = linear(
-            x,
-            self.from_input.clone().transpose(),
-            Some(self.input_bias.clone()),
-        );
+        let (batch, device) = (start.dims()[0], x.device());
+        let inputs = self.inputs(x);
         let mut state = start;
         for step in order {
             let input = inputs.clone().narrow(1, step, 1).squeeze_dim::<2>(1);
-            let recurrent = linear(
-                state.clone(),
-                self.from_state.clone().transpose(),
-                Some(self.state_bias.clone()),
-            );
-            let gate =
-                |tensor: &Tensor<2>, index: usize| tensor.clone().narrow(1, index * hidden, hidden);
-            let reset = sigmoid(gate(&input, 0) + gate(&recurrent, 0));
-            let update = sigmoid(gate(&input, 1) + gate(&recurrent, 1));
-            let new = (gate(&input, 2) + reset * gate(&recurrent, 2)).tanh();
-            let next = new.clone() + update * (state.clone() - new);
+            let next = self.next(&input, state.clone());
             // A sequence that has no such step keeps its state.
             let within = lengths
                 .iter()

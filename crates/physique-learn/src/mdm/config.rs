@@ -35,6 +35,19 @@ pub struct MdmConfig {
     pub condition_every_frame: bool,
     /// Frames that are taken together, to halve the sequence or more.
     pub frames_per_token: usize,
+    /// Of networks that plan a motion piece by piece (DiP): how much they see and say at a time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub planner: Option<PlannerConfig>,
+}
+
+/// How a network goes on with a motion: CLoSD's diffusion planner, Tevet et al., ICLR 2025.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlannerConfig {
+    /// Clean frames in front, which it goes on from: 20 as published.
+    pub context: usize,
+    /// Frames that it makes at a time: 40 as published.
+    pub prediction: usize,
 }
 
 /// How the condition gets into the network.
@@ -47,6 +60,21 @@ pub enum Architecture {
     Decoder,
     /// `trans_dec` with `emb_trans_dec`: besides, the step is a token in front of the frames.
     DecoderWithTimeToken,
+    /// Beside every frame, on the way into a recurrent network that walks over the frames.
+    Gru,
+    /// `gru`, as published: the same, but it walks over the motions of a batch, so that a motion depends
+    /// on those before it. For published files; alone in a batch, frames know nothing of each other.
+    GruOverBatch,
+}
+
+impl Architecture {
+    pub(super) const fn is_decoder(self) -> bool {
+        matches!(self, Self::Decoder | Self::DecoderWithTimeToken)
+    }
+
+    pub(super) const fn is_recurrent(self) -> bool {
+        matches!(self, Self::Gru | Self::GruOverBatch)
+    }
 }
 
 /// What motions are described by.
@@ -87,6 +115,7 @@ impl Default for MdmConfig {
             norm: NormPlace::Post,
             condition_every_frame: false,
             frames_per_token: 1,
+            planner: None,
         }
     }
 }
@@ -107,6 +136,18 @@ impl MdmConfig {
         for (what, found, most) in sizes {
             if !(1..=most).contains(&found) {
                 return Err(Error::setting(what, format!("1 to {most}"), found));
+            }
+        }
+        if let Some(planner) = self.planner {
+            for (what, found) in [
+                ("context of the planner", planner.context),
+                ("prediction of the planner", planner.prediction),
+            ] {
+                let together = self.frames_per_token;
+                if !(1..=1 << 16).contains(&found) || !found.is_multiple_of(together) {
+                    let expected = format!("1 to 65536 frames, a multiple of {together}");
+                    return Err(Error::setting(what, expected, found));
+                }
             }
         }
         if self.heads == 0 || !self.width.is_multiple_of(self.heads) {
@@ -132,17 +173,23 @@ impl MdmConfig {
 
     /// What only encoders or decoders can.
     fn check_architecture(&self) -> Result<(), Error> {
+        let found = format!("{:?}", self.architecture);
         let encoder = self.architecture == Architecture::Encoder;
         let tokens = matches!(self.condition, ConditionKind::Tokens { .. });
-        if encoder && tokens {
+        if tokens && !self.architecture.is_decoder() {
             let expected = "a decoder, which captions of many tokens need";
-            return Err(Error::setting("architecture", expected, "encoder"));
+            return Err(Error::setting("architecture", expected, found));
         }
         if !encoder && (self.norm == NormPlace::Pre || self.condition_every_frame) {
-            let expected = "post-norm and no condition on every frame, as decoders have";
-            return Err(Error::setting("architecture", expected, "a decoder"));
+            let expected = "an encoder, for pre-norm or the condition on every frame";
+            return Err(Error::setting("architecture", expected, found));
         }
         Ok(())
+    }
+
+    /// Frames in front that the network goes on from; 0 for networks that make whole motions.
+    pub fn context(&self) -> usize {
+        self.planner.map_or(0, |planner| planner.context)
     }
 
     pub(super) const fn layer_sizes(&self) -> LayerSizes {

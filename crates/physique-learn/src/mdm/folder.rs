@@ -10,8 +10,7 @@ use physique_motion::Limits;
 use physique_motion::features::FeatureStatistics;
 use serde::{Deserialize, Serialize};
 
-use super::published::NAMES;
-use super::{Mdm, MdmConfig, parameters_of};
+use super::{Mdm, MdmConfig, PUBLISHED_NAMES, parameters_of};
 use crate::Error;
 use crate::checkpoint::{CheckpointLimits, Precision, parse_safetensors, write_safetensors};
 use crate::text::KnownCaptions;
@@ -151,7 +150,7 @@ impl MdmFolder {
         let (path, bytes) = needed(NETWORK)?;
         let (parameters, _) = parse_safetensors(&bytes, &path, limits)?;
         let network = Mdm::new(&config.network, 0, device)?;
-        let network = parameters.load(network, "MDM", NAMES)?;
+        let network = parameters.load(network, "MDM", PUBLISHED_NAMES)?;
         let (mean, deviation) = (needed(MEAN)?, needed(DEVIATION)?);
         let statistics = FeatureStatistics::parse(
             (&mean.0, mean.1),

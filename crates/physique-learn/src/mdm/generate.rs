@@ -27,6 +27,9 @@ pub struct GenerateRequest<'a> {
     /// [`GuideWeights`](crate::diffusion::GuideWeights): the more, the less noise is left. None
     /// changes nothing, on any network.
     pub guides: &'a [WeightedLoss],
+    /// Clean frames that they go on from, normalised, `[batch][context][columns]`; planners only, which
+    /// make a piece: see [`plan_motions`](super::plan_motions).
+    pub context: Option<&'a Tensor<3>>,
 }
 
 /// Generates a batch of motions: for each its normalised features `[frames][columns]`, flat.
@@ -71,6 +74,7 @@ pub fn generate_whole(
         guidance,
         edit,
         guides,
+        context,
     } = request;
     if seeds.len() != lengths.len() || lengths.is_empty() {
         let expected = format!("{}, one a motion", lengths.len().max(1));
@@ -93,6 +97,7 @@ pub fn generate_whole(
                 condition,
                 conditioned: (!conditioned).then_some(unconditioned.as_slice()),
                 lengths: Some(lengths),
+                context: context.cloned(),
             };
             network.forward(query, &Dropout::none())
         })?;

@@ -7,7 +7,7 @@ use super::time_embedding::TimeEmbedding;
 use super::{Architecture, Condition, ConditionKind, MdmConfig};
 use crate::Error;
 use crate::layers::{
-    Dropout, Embedding, Initialiser, Linear, Memory, TransformerDecoder, TransformerEncoder,
+    Dropout, Embedding, Gru, Initialiser, Linear, Memory, TransformerDecoder, TransformerEncoder,
     positions,
 };
 use crate::tensors::{padding, tensor};
@@ -21,6 +21,7 @@ pub struct Mdm {
     action_embedding: Option<Embedding>,
     encoder: Option<TransformerEncoder>,
     decoder: Option<TransformerDecoder>,
+    gru: Option<Gru>,
     pose_final: Linear,
     #[module(skip)]
     config: MdmConfig,
@@ -39,6 +40,8 @@ pub struct MdmQuery<'a> {
     pub conditioned: Option<&'a [bool]>,
     /// Frames of each motion, where some are shorter; only networks with `mask_frames` mind.
     pub lengths: Option<&'a [usize]>,
+    /// Clean frames that the motions go on from, `[batch][context][columns]`; planners only.
+    pub context: Option<Tensor<3>>,
 }
 
 impl Mdm {
@@ -51,7 +54,11 @@ impl Mdm {
         let initialiser = &mut Initialiser::new(seed, device);
         let (width, sizes) = (config.width, config.layer_sizes());
         let columns = config.columns * config.frames_per_token;
-        let encodes = config.architecture == Architecture::Encoder;
+        let (encodes, recurs) = (
+            config.architecture == Architecture::Encoder,
+            config.architecture.is_recurrent(),
+        );
+        let beside = if recurs { width } else { 0 };
         let text = match config.condition {
             ConditionKind::Sentence { width } | ConditionKind::Tokens { width } => Some(width),
             _ => None,
@@ -61,12 +68,16 @@ impl Mdm {
             _ => None,
         };
         Ok(Self {
-            pose_embedding: Linear::new(columns, width, initialiser),
+            pose_embedding: Linear::new(columns + beside, width, initialiser),
             time_embedding: TimeEmbedding::new(width, initialiser),
             text_embedding: text.map(|inputs| Linear::new(inputs, width, initialiser)),
             action_embedding: actions.map(|count| Embedding::new(count, width, initialiser)),
             encoder: encodes.then(|| TransformerEncoder::new(config.layers, sizes, initialiser)),
-            decoder: (!encodes).then(|| TransformerDecoder::new(config.layers, sizes, initialiser)),
+            decoder: config
+                .architecture
+                .is_decoder()
+                .then(|| TransformerDecoder::new(config.layers, sizes, initialiser)),
+            gru: recurs.then(|| Gru::new(config.layers, width, initialiser)),
             pose_final: Linear::new(width, columns, initialiser),
             config: config.clone(),
         })
@@ -88,63 +99,85 @@ impl Mdm {
     /// # Errors
     /// [`Error::Input`] where shapes, counts, steps or the condition do not fit the network.
     pub fn forward(&self, query: MdmQuery<'_>, dropout: &Dropout) -> Result<Tensor<3>, Error> {
-        let [batch, frames, columns] = query.noisy.dims();
         self.check(&query)?;
+        let [batch, frames, columns] = query.noisy.dims();
+        let context = self.config.context();
+        let seen = match query.context {
+            Some(context) => Tensor::cat(vec![context, query.noisy], 1),
+            None => query.noisy,
+        };
         let together = self.config.frames_per_token;
-        let tokens = frames / together;
-        let device = query.noisy.device();
+        let tokens = (context + frames) / together;
+        let device = seen.device();
 
-        let x = query.noisy.reshape([batch, tokens, columns * together]);
-        let x = self.pose_embedding.forward(x);
         let time = self.time_embedding.forward(query.steps, &device);
         let time = time.unsqueeze_dim::<3>(1);
         let condition = self.embed(query.condition, query.conditioned, time.clone())?;
         let lengths = query.lengths.filter(|_| self.config.mask_frames);
-        let lengths: Option<Vec<usize>> = lengths.map(|lengths| {
-            lengths
-                .iter()
-                .map(|length| length.div_ceil(together))
-                .collect()
+        let lengths = lengths.map(|lengths| {
+            let lengths = lengths.iter().map(|length| length + context);
+            lengths.map(|length| length.div_ceil(together)).collect()
         });
+        let x = seen.reshape([batch, tokens, columns * together]);
+        let x = self.through(x, condition, time, lengths, dropout);
+        let x = self.pose_final.forward(x);
+        let x = x.reshape([batch, context + frames, columns]);
+        Ok(x.narrow(1, context, frames))
+    }
+
+    /// What the layers make of tokens `[batch][tokens][columns]`: `[batch][tokens][width]`; motions have
+    /// `lengths` of them, behind which nobody looks.
+    fn through(
+        &self,
+        x: Tensor<3>,
+        condition: Memory,
+        time: Tensor<3>,
+        lengths: Option<Vec<usize>>,
+        dropout: &Dropout,
+    ) -> Tensor<3> {
+        let [batch, tokens, _] = x.dims();
+        let device = x.device();
         let hidden = |in_front: usize| {
             let lengths = lengths.as_ref()?.iter().map(|length| length + in_front);
-            Some(padding(
-                &lengths.collect::<Vec<_>>(),
-                tokens + in_front,
-                &device,
-            ))
+            let lengths: Vec<usize> = lengths.collect();
+            Some(padding(&lengths, tokens + in_front, &device))
         };
-
-        let x = match (&self.encoder, &self.decoder) {
-            (Some(encoder), _) => {
-                let place = self.config.norm;
-                let x = if self.config.condition_every_frame {
-                    x + condition.tokens.clone()
-                } else {
-                    x
-                };
-                let x = in_order(Tensor::cat(vec![condition.tokens, x], 1), dropout);
-                encoder
-                    .forward(x, place, hidden(1).as_ref(), dropout)
-                    .narrow(1, 1, tokens)
+        if let Some(encoder) = &self.encoder {
+            let x = self.pose_embedding.forward(x);
+            let x = if self.config.condition_every_frame {
+                x + condition.tokens.clone()
+            } else {
+                x
+            };
+            let x = in_order(Tensor::cat(vec![condition.tokens, x], 1), dropout);
+            return encoder
+                .forward(x, self.config.norm, hidden(1).as_ref(), dropout)
+                .narrow(1, 1, tokens);
+        }
+        if let Some(decoder) = &self.decoder {
+            let x = self.pose_embedding.forward(x);
+            let with_time = self.config.architecture == Architecture::DecoderWithTimeToken;
+            let in_front = usize::from(with_time);
+            let x = if with_time {
+                Tensor::cat(vec![time, x], 1)
+            } else {
+                x
+            };
+            let x = in_order(x, dropout);
+            return decoder
+                .forward(x, &condition, hidden(in_front).as_ref(), dropout)
+                .narrow(1, in_front, tokens);
+        }
+        let beside = condition.tokens.expand([batch, tokens, self.config.width]);
+        let x = self.pose_embedding.forward(Tensor::cat(vec![x, beside], 2));
+        let x = in_order(x, dropout);
+        match (&self.gru, self.config.architecture) {
+            (Some(gru), Architecture::GruOverBatch) => {
+                gru.forward(x.swap_dims(0, 1)).swap_dims(0, 1)
             }
-            (None, Some(decoder)) => {
-                let with_time = self.config.architecture == Architecture::DecoderWithTimeToken;
-                let in_front = usize::from(with_time);
-                let x = if with_time {
-                    Tensor::cat(vec![time, x], 1)
-                } else {
-                    x
-                };
-                let x = in_order(x, dropout);
-                decoder
-                    .forward(x, &condition, hidden(in_front).as_ref(), dropout)
-                    .narrow(1, in_front, tokens)
-            }
-            (None, None) => x,
-        };
-        let x = self.pose_final.forward(x);
-        Ok(x.reshape([batch, frames, columns]))
+            (Some(gru), _) => gru.forward(x),
+            (None, _) => x,
+        }
     }
 
     /// The step and the condition together: `[batch][tokens or 1][width]`.
@@ -199,6 +232,18 @@ impl Mdm {
         if frames == 0 || !frames.is_multiple_of(together) {
             let expected = format!("a multiple of {together} frames");
             return Err(Error::input("Motions", expected, frames));
+        }
+        let expected = self
+            .config
+            .planner
+            .map(|planner| [batch, planner.context, columns]);
+        let found = query.context.as_ref().map(Tensor::dims);
+        if expected != found {
+            let show = |shape: Option<[usize; 3]>| match shape {
+                Some(shape) => format!("{shape:?}"),
+                None => "none".to_owned(),
+            };
+            return Err(Error::input("Context", show(expected), show(found)));
         }
         if let Some(length) = query.lengths.and_then(|lengths| {
             lengths

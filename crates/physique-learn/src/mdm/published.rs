@@ -5,13 +5,13 @@ use std::path::Path;
 use burn::tensor::Device;
 use serde::Deserialize;
 
-use super::{Architecture, ConditionKind, Mdm, MdmConfig};
+use super::{Architecture, ConditionKind, Mdm, MdmConfig, PlannerConfig};
 use crate::Error;
 use crate::checkpoint::{CheckpointLimits, TorchCheckpoint};
 use crate::parameters::{NameTable, Parameters};
 
 /// Our paths and the published names.
-pub(super) const NAMES: NameTable = &[
+pub const PUBLISHED_NAMES: NameTable = &[
     ("pose_embedding", "input_process.poseEmbedding"),
     ("time_embedding.first", "embed_timestep.time_embed.0"),
     ("time_embedding.second", "embed_timestep.time_embed.2"),
@@ -19,6 +19,10 @@ pub(super) const NAMES: NameTable = &[
     ("action_embedding.weight", "embed_action.action_embedding"),
     ("encoder", "seqTransEncoder"),
     ("decoder", "seqTransDecoder"),
+    ("gru.layers.*.weight_ih", "gru.weight_ih_l*"),
+    ("gru.layers.*.weight_hh", "gru.weight_hh_l*"),
+    ("gru.layers.*.bias_ih", "gru.bias_ih_l*"),
+    ("gru.layers.*.bias_hh", "gru.bias_hh_l*"),
     ("pose_final", "output_process.poseFinal"),
 ];
 
@@ -38,7 +42,7 @@ const PASSED_OVER: [&str; 4] = [
 pub struct PublishedArguments {
     /// `humanml`, `kit`, `humanact12` or `uestc`.
     pub dataset: String,
-    /// `trans_enc` or `trans_dec`.
+    /// `trans_enc`, `trans_dec` or `gru`.
     pub arch: String,
     /// `clip` or `bert`.
     pub text_encoder_type: String,
@@ -48,6 +52,10 @@ pub struct PublishedArguments {
     pub mask_frames: bool,
     /// Steps of diffusion.
     pub diffusion_steps: usize,
+    /// Clean frames that a planner goes on from; 0 for networks that make whole motions.
+    pub context_len: usize,
+    /// Frames that a planner makes at a time.
+    pub pred_len: usize,
 }
 
 impl Default for PublishedArguments {
@@ -59,6 +67,8 @@ impl Default for PublishedArguments {
             emb_trans_dec: false,
             mask_frames: false,
             diffusion_steps: 1000,
+            context_len: 0,
+            pred_len: 0,
         }
     }
 }
@@ -69,7 +79,7 @@ impl Default for PublishedArguments {
 /// # Errors
 /// [`Error::File`]; [`Error::Content`] and [`Error::Checkpoint`] for a broken file;
 /// [`Error::Parameters`] unless its names are exactly the network's; [`Error::Setting`] for an
-/// architecture other than `trans_enc` and `trans_dec`.
+/// architecture other than `trans_enc`, `trans_dec` and `gru`.
 pub fn read_published(
     path: &Path,
     limits: &CheckpointLimits,
@@ -105,7 +115,7 @@ pub fn from_parameters(
     let config = config(&parameters, arguments)?;
     // What the network starts with is overwritten.
     let model = Mdm::new(&config, 0, device)?;
-    parameters.load(model, "MDM", NAMES)
+    parameters.load(model, "MDM", PUBLISHED_NAMES)
 }
 
 /// The parameters of a network under their published names.
@@ -113,7 +123,7 @@ pub fn from_parameters(
 /// # Errors
 /// [`Error::Device`] where the numbers cannot be fetched.
 pub fn parameters_of(model: &Mdm, source: &str) -> Result<Parameters, Error> {
-    Parameters::of(model, source, NAMES)
+    Parameters::of(model, source, PUBLISHED_NAMES)
 }
 
 fn config(parameters: &Parameters, arguments: &PublishedArguments) -> Result<MdmConfig, Error> {
@@ -121,8 +131,9 @@ fn config(parameters: &Parameters, arguments: &PublishedArguments) -> Result<Mdm
         ("trans_enc", _) => (Architecture::Encoder, "seqTransEncoder"),
         ("trans_dec", false) => (Architecture::Decoder, "seqTransDecoder"),
         ("trans_dec", true) => (Architecture::DecoderWithTimeToken, "seqTransDecoder"),
+        ("gru", _) => (Architecture::GruOverBatch, "gru"),
         (other, _) => {
-            let expected = "trans_enc or trans_dec";
+            let expected = "trans_enc, trans_dec or gru";
             return Err(Error::setting("arch", expected, format!("{other:?}")));
         }
     };
@@ -134,6 +145,11 @@ fn config(parameters: &Parameters, arguments: &PublishedArguments) -> Result<Mdm
     };
     let pose = shape("input_process.poseEmbedding.weight");
     let [width, columns] = pose.unwrap_or([published.width, published.columns]);
+    // A recurrent network reads the condition beside the frame.
+    let columns = match architecture.is_recurrent() {
+        true => columns.saturating_sub(width),
+        false => columns,
+    };
     let text =
         shape("embed_text.weight").map(|[_, width]| match arguments.text_encoder_type.as_str() {
             "bert" => ConditionKind::Tokens { width },
@@ -143,7 +159,10 @@ fn config(parameters: &Parameters, arguments: &PublishedArguments) -> Result<Mdm
     let actions = actions.map(|[count, _]| ConditionKind::Action { count });
     let feed_forward = shape(&format!("{stack}.layers.0.linear1.weight"));
     let layer = |index: &usize| {
-        let name = format!("{stack}.layers.{index}.norm1.weight");
+        let name = match architecture.is_recurrent() {
+            true => format!("{stack}.weight_ih_l{index}"),
+            false => format!("{stack}.layers.{index}.norm1.weight"),
+        };
         parameters.arrays.contains_key(&name)
     };
     Ok(MdmConfig {
@@ -157,6 +176,10 @@ fn config(parameters: &Parameters, arguments: &PublishedArguments) -> Result<Mdm
         architecture,
         condition: text.or(actions).unwrap_or(ConditionKind::Unconditioned),
         mask_frames: arguments.mask_frames,
+        planner: (arguments.context_len > 0).then_some(PlannerConfig {
+            context: arguments.context_len,
+            prediction: arguments.pred_len,
+        }),
         ..published
     })
 }

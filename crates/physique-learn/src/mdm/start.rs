@@ -9,8 +9,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::folder::NETWORK;
-use super::published::NAMES;
-use super::{Mdm, MdmConfig, MdmFolder, MdmPlan, parameters_of, read_published};
+use super::{Mdm, MdmConfig, MdmFolder, MdmPlan, PUBLISHED_NAMES, parameters_of, read_published};
 use crate::Error;
 use crate::checkpoint::CheckpointLimits;
 use crate::text::KnownCaptions;
@@ -125,7 +124,7 @@ impl StartingNetwork {
     pub fn network(&self, config: &MdmConfig, device: &Device) -> Result<Mdm, Error> {
         self.check(config)?;
         let parameters = parameters_of(&self.network, &self.origin.path)?;
-        parameters.load(Mdm::new(config, 0, device)?, "MDM", NAMES)
+        parameters.load(Mdm::new(config, 0, device)?, "MDM", PUBLISHED_NAMES)
     }
 
     /// Whether a network of this shape can start so.

@@ -1,11 +1,11 @@
 //! A network with all that is needed to ask it for motions in words.
 
-use burn::tensor::Device;
+use burn::tensor::{Device, Tensor};
 use physique_motion::FrameRate;
-use physique_motion::features::MotionFeatures;
+use physique_motion::features::{FeatureLayout, MotionFeatures};
 use physique_text::TextEncoder;
 
-use super::{Condition, ConditionKind, GenerateRequest, MdmFolder, generate_whole};
+use super::{Condition, ConditionKind, GenerateRequest, MdmFolder, generate_whole, plan_motions};
 use crate::Error;
 use crate::diffusion::{BatchEdit, Edit, GuideWeights, Method, Sampler, Schedule};
 use crate::tensors::tensor;
@@ -142,7 +142,7 @@ impl TextToMotion {
         known: Option<&KnownMotion>,
         observe: impl FnMut(usize),
     ) -> Result<Vec<MotionFeatures>, Error> {
-        let mut motions = self.sample(prompts, sampling, known, 0, observe)?;
+        let mut motions = self.sample(prompts, sampling, (known, None), 0, observe)?;
         for (motion, prompt) in motions.iter_mut().zip(prompts) {
             motion.truncate(prompt.frames * self.folder.statistics.mean().len());
         }
@@ -160,16 +160,34 @@ impl TextToMotion {
         sampling: Sampling,
         frames: usize,
     ) -> Result<Vec<MotionFeatures>, Error> {
-        let motions = self.sample(prompts, sampling, None, frames, |_| ())?;
+        let motions = self.sample(prompts, sampling, (None, None), frames, |_| ())?;
         self.features(motions)
     }
 
-    /// Normalised motions with what lies behind their lengths.
+    /// Goes on from the last frames of a motion, piece by piece, as [`plan_motions`] does; the frames of
+    /// that motion are not in the result. Networks that plan only.
+    ///
+    /// # Errors
+    /// As [`TextToMotion::generate`]; [`Error::Input`] for a motion of other features or with too few
+    /// frames, and for networks that make whole motions.
+    pub fn go_on(
+        &self,
+        prompts: &[Prompt<'_>],
+        sampling: Sampling,
+        after: &MotionFeatures,
+        observe: impl FnMut(usize),
+    ) -> Result<Vec<MotionFeatures>, Error> {
+        let motions = self.sample(prompts, sampling, (None, Some(after)), 0, observe)?;
+        self.features(motions)
+    }
+
+    /// Normalised motions with what lies behind their lengths; parts of a known motion are in all of
+    /// them, or they go on from one.
     fn sample(
         &self,
         prompts: &[Prompt<'_>],
         sampling: Sampling,
-        known: Option<&KnownMotion>,
+        (known, after): (Option<&KnownMotion>, Option<&MotionFeatures>),
         frames: usize,
         observe: impl FnMut(usize),
     ) -> Result<Vec<Vec<f32>>, Error> {
@@ -206,9 +224,41 @@ impl TextToMotion {
             guidance,
             edit: edit.as_ref(),
             guides: &guides,
+            context: None,
         };
         let sampler = Sampler::new(schedule, sampling.method);
-        generate_whole(&self.folder.network, &sampler, request, frames, observe)
+        let network = &self.folder.network;
+        match after {
+            None => generate_whole(network, &sampler, request, frames, observe),
+            Some(after) => {
+                let context = self.context(after, prompts.len())?;
+                plan_motions(network, &sampler, request, &context, observe)
+            }
+        }
+    }
+
+    /// The last frames of a motion, for each motion of a batch.
+    fn context(&self, after: &MotionFeatures, batch: usize) -> Result<Tensor<3>, Error> {
+        let config = self.folder.network.config();
+        let (frames, columns) = (config.context(), config.columns);
+        let mut values = after.values().to_vec();
+        if values.len() < frames * columns || after.layout() != self.layout() {
+            let expected = format!("{frames} frames of {columns} features or more");
+            let found = format!("{} frames", after.frame_count());
+            return Err(Error::input("Motion to go on from", expected, found));
+        }
+        self.folder.statistics.normalise(&mut values);
+        let last = &values[values.len() - frames * columns..];
+        let shape = [batch, frames, columns];
+        Ok(tensor(
+            last.repeat(batch),
+            shape,
+            &self.folder.network.device(),
+        ))
+    }
+
+    fn layout(&self) -> FeatureLayout {
+        FeatureLayout::of(self.folder.statistics.skeleton())
     }
 
     fn features(&self, motions: Vec<Vec<f32>>) -> Result<Vec<MotionFeatures>, Error> {

@@ -249,7 +249,19 @@ impl<S: MotionSource> Task for MdmTask<S> {
         batch.check(columns)?;
         let range = part.range(batch.lengths.len())?;
         let first = range.start;
-        let batch = batch.only(range, columns);
+        let mut batch = batch.only(range, columns);
+        let context = match network.config().context() {
+            0 => None,
+            frames => {
+                let (context, rest) = batch.behind(frames, columns)?;
+                batch = rest;
+                Some(tensor(
+                    context,
+                    [batch.lengths.len(), frames, columns],
+                    &device,
+                ))
+            }
+        };
         let condition = match &batch.condition {
             BatchCondition::Nothing => Condition::Nothing,
             BatchCondition::Text(embeddings) => Condition::text(embeddings, &device)?,
@@ -262,6 +274,7 @@ impl<S: MotionSource> Task for MdmTask<S> {
             condition: &condition,
             conditioned: Some(&noised.conditioned),
             lengths: Some(&batch.lengths),
+            context,
         };
         let dropout = Dropout::training(network.config().dropout, seed, step);
         let dropout = dropout.of_part(first as u64);

@@ -72,6 +72,30 @@ impl MotionBatch {
         }
     }
 
+    /// The first `context` frames of all motions, `[batch][context][columns]`, and the motions behind
+    /// them.
+    ///
+    /// # Errors
+    /// [`Error::Input`] when a motion has no frame behind them.
+    pub(crate) fn behind(self, context: usize, columns: usize) -> Result<(Vec<f32>, Self), Error> {
+        if let Some(length) = self.lengths.iter().find(|&&length| length <= context) {
+            let expected = format!("more than the {context} frames that a planner goes on from");
+            return Err(Error::input("Length of a motion", expected, length));
+        }
+        let motions = self.features.chunks_exact(self.frames * columns);
+        let (front, rest): (Vec<&[f32]>, Vec<&[f32]>) = motions
+            .map(|motion| motion.split_at(context * columns))
+            .unzip();
+        let lengths = self.lengths.iter().map(|length| length - context);
+        let rest = Self {
+            frames: self.frames - context,
+            features: rest.concat(),
+            lengths: lengths.collect(),
+            condition: self.condition,
+        };
+        Ok((front.concat(), rest))
+    }
+
     /// Whether counts fit each other.
     ///
     /// # Errors

@@ -45,6 +45,7 @@ fn predict(
         condition,
         conditioned: (!conditioned).then_some(&[false, false]),
         lengths,
+        context: None,
     };
     let clean = network.forward(query, &Dropout::none()).expect("it fits");
     let clean = clean.into_data().try_into_vec::<f32>().expect("floats");
