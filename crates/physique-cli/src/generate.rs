@@ -131,7 +131,10 @@ fn sample(
     arguments: &GenerateArguments,
     known: Option<&KnownMotion>,
 ) -> Result<Vec<MotionFeatures>> {
-    let sampling = sampling(&arguments.sampling);
+    let mut sampling = sampling(&arguments.sampling);
+    if arguments.sampling.smooth.is_none() && network.frame_rate().per_second() > 16.0 {
+        sampling.smooth_hz = Some(SMOOTH_HZ);
+    }
     let default = network.folder().description.diffusion_steps;
     let steps = sampling.steps.unwrap_or(default);
     let bar = ProgressBar::new((prompts.len().div_ceil(AT_ONCE) * steps) as u64);
@@ -149,6 +152,9 @@ fn sample(
     Ok(motions)
 }
 
+/// What biomechanics filters joints with: no one swings a limb faster.
+const SMOOTH_HZ: f64 = 6.0;
+
 /// How motions are sampled, by the flags.
 pub(crate) fn sampling(arguments: &SamplingArguments) -> Sampling {
     Sampling {
@@ -159,5 +165,6 @@ pub(crate) fn sampling(arguments: &SamplingArguments) -> Sampling {
         },
         steps: arguments.steps,
         guides: arguments.guide,
+        smooth_hz: arguments.smooth.filter(|&cutoff| cutoff != 0.0),
     }
 }

@@ -16,6 +16,16 @@ pub enum Error {
         /// What the system said.
         problem: std::io::Error,
     },
+    /// A filter that the frame rate does not allow.
+    #[error(
+        "The cutoff must be above 0 and below {highest} Hz, 0.4 of the frame rate, found {found}."
+    )]
+    Cutoff {
+        /// The cutoff, in Hz.
+        found: f64,
+        /// What it must be below.
+        highest: f64,
+    },
     /// A frame rate that no motion has.
     #[error("The frame rate must be from 0.001 to 1,000,000 frames a second, found {found}.")]
     FrameRate {

@@ -21,6 +21,7 @@ mod gradient;
 mod heading;
 mod kit;
 mod layout;
+mod low_pass;
 mod matrix;
 mod mirror;
 mod npy;

@@ -40,6 +40,8 @@ struct Sampling {
     /// Share of the noise; null: drawn from the posterior.
     ddim: Option<f64>,
     guides: GuideWeights,
+    /// Cutoff of the low-pass filter; null: none.
+    smooth_hz: Option<f64>,
 }
 
 impl EvaluationReport {
@@ -61,6 +63,7 @@ impl EvaluationReport {
                 steps: arguments.sampling.steps,
                 ddim: arguments.sampling.ddim,
                 guides: arguments.sampling.guide,
+                smooth_hz: arguments.sampling.smooth.filter(|&cutoff| cutoff != 0.0),
             },
             evaluation: None,
             judge: Vec::new(),

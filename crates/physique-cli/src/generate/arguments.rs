@@ -86,6 +86,10 @@ pub(crate) struct SamplingArguments {
         hide_default_value = true
     )]
     pub(crate) guide: GuideWeights,
+    /// Take out what swings faster than so many Hz, as biomechanics does with recorded joints; 0 for
+    /// nothing [default: 6 in `generate`, where the frame rate allows it, and 0 in `evaluate`].
+    #[arg(long, value_name = "HZ")]
+    pub(crate) smooth: Option<f64>,
 }
 
 /// Parts of another motion that stay.

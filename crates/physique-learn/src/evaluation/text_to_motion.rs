@@ -42,9 +42,13 @@ impl MotionGenerator for TextToMotionGenerator {
         let description = &self.network.folder().description;
         let notes = description.notes.iter();
         let notes = notes.map(|(name, note)| format!("{name} {note}"));
+        let smooth = match self.sampling.smooth_hz {
+            Some(cutoff) => format!("smoothed at {cutoff} Hz"),
+            None => "not smoothed".into(),
+        };
         let steps = self.sampling.steps.unwrap_or(description.diffusion_steps);
         format!(
-            "MDM, {:?}, {steps} of {} steps, guidance {}, {:?} ({})",
+            "MDM, {:?}, {steps} of {} steps, guidance {}, {:?}, {smooth} ({})",
             self.sampling.method,
             description.diffusion_steps,
             self.sampling.guidance,

@@ -51,6 +51,9 @@ pub struct Sampling {
     pub steps: Option<usize>,
     /// Losses that motions are moved against while they are made.
     pub guides: GuideWeights,
+    /// Cutoff in Hz of a low-pass filter over what was made, [`MotionFeatures::low_passed`]; `None` for
+    /// what the network gives. Motions with parts of a known one are not filtered.
+    pub smooth_hz: Option<f64>,
 }
 
 impl Default for Sampling {
@@ -61,6 +64,7 @@ impl Default for Sampling {
             method: Method::Ancestral,
             steps: None,
             guides: GuideWeights::default(),
+            smooth_hz: None,
         }
     }
 }
@@ -134,7 +138,8 @@ impl TextToMotion {
     ///
     /// # Errors
     /// [`Error::Input`] without prompts, or for edits that do not fit; [`Error::Setting`] for steps
-    /// that the network does not have; [`Error::Motion`] for features that are not finite.
+    /// that the network does not have; [`Error::Motion`] for features that are not finite, and for a
+    /// cutoff that the frame rate does not allow.
     pub fn generate(
         &self,
         prompts: &[Prompt<'_>],
@@ -146,7 +151,8 @@ impl TextToMotion {
         for (motion, prompt) in motions.iter_mut().zip(prompts) {
             motion.truncate(prompt.frames * self.folder.statistics.mean().len());
         }
-        self.features(motions)
+        let smooth_hz = sampling.smooth_hz.filter(|_| known.is_none());
+        self.features(motions, smooth_hz)
     }
 
     /// As [`TextToMotion::generate`], with at least so many frames, and with what lies behind each
@@ -161,7 +167,7 @@ impl TextToMotion {
         frames: usize,
     ) -> Result<Vec<MotionFeatures>, Error> {
         let motions = self.sample(prompts, sampling, (None, None), frames, |_| ())?;
-        self.features(motions)
+        self.features(motions, sampling.smooth_hz)
     }
 
     /// Goes on from the last frames of a motion, piece by piece, as [`plan_motions`] does; the frames of
@@ -178,7 +184,7 @@ impl TextToMotion {
         observe: impl FnMut(usize),
     ) -> Result<Vec<MotionFeatures>, Error> {
         let motions = self.sample(prompts, sampling, (None, Some(after)), 0, observe)?;
-        self.features(motions)
+        self.features(motions, sampling.smooth_hz)
     }
 
     /// Normalised motions with what lies behind their lengths; parts of a known motion are in all of
@@ -261,12 +267,20 @@ impl TextToMotion {
         FeatureLayout::of(self.folder.statistics.skeleton())
     }
 
-    fn features(&self, motions: Vec<Vec<f32>>) -> Result<Vec<MotionFeatures>, Error> {
+    fn features(
+        &self,
+        motions: Vec<Vec<f32>>,
+        smooth_hz: Option<f64>,
+    ) -> Result<Vec<MotionFeatures>, Error> {
         let statistics = &self.folder.statistics;
         let motions = motions.into_iter().map(|mut motion| {
             statistics.denormalise(&mut motion);
             let skeleton = statistics.skeleton();
-            Ok(MotionFeatures::new(self.frame_rate, skeleton, motion)?)
+            let made = MotionFeatures::new(self.frame_rate, skeleton, motion)?;
+            Ok(match smooth_hz {
+                Some(cutoff_hz) => made.low_passed(cutoff_hz)?,
+                None => made,
+            })
         });
         motions.collect()
     }
