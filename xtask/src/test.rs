@@ -5,6 +5,10 @@ use anyhow::Result;
 use crate::cards;
 use crate::shell::{cargo, step};
 
+/// What is off by default and tested all the same: kernels for graphics processors. Documentation is
+/// built without it, as users build the crates.
+const GPU: &str = "physique-cli/wgpu";
+
 pub(crate) fn run() -> Result<()> {
     step("format", &mut cargo(&["fmt", "--all", "--check"]))?;
     cards::check()?;
@@ -15,6 +19,8 @@ pub(crate) fn run() -> Result<()> {
             "--workspace",
             "--all-targets",
             "--locked",
+            "--features",
+            GPU,
             "--",
             "-D",
             "warnings",
@@ -29,6 +35,8 @@ pub(crate) fn run() -> Result<()> {
             "--lib",
             "--bins",
             "--locked",
+            "--features",
+            GPU,
             "--",
             "-D",
             "warnings",
@@ -44,5 +52,6 @@ pub(crate) fn run() -> Result<()> {
         "documentation",
         cargo(&["doc", "--workspace", "--no-deps", "--locked"]).env("RUSTDOCFLAGS", "-D warnings"),
     )?;
-    step("tests", &mut cargo(&["test", "--workspace", "--locked"]))
+    let tests = ["test", "--workspace", "--locked", "--features", GPU];
+    step("tests", &mut cargo(&tests))
 }

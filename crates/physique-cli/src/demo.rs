@@ -67,7 +67,7 @@ fn generated(scorer: &Scorer, arguments: &DemoArguments) -> Result<MotionReport>
 
     const NAME: &str = "generated";
     const TEXT: &str = "a person walks";
-    let network = crate::generate::model::embedded()?;
+    let network = crate::generate::model::embedded(physique_learn::DeviceChoice::Cpu)?;
     let prompt = Prompt {
         text: TEXT,
         frames: 80,

@@ -17,7 +17,7 @@ use arguments::EvaluateArguments;
 
 pub(crate) fn run(arguments: &EvaluateArguments) -> Result<Exit> {
     let dataset = Dataset::open(&arguments.data, &DataLimits::default())?;
-    let evaluator = evaluators::open(&arguments.evaluator)?;
+    let evaluator = evaluators::open(&arguments.evaluator, arguments.device.device)?;
     let models = model::open_all(arguments, &dataset)?;
     let mut report = report::EvaluationReport::new(arguments, &dataset);
     if let Some(evaluator) = &evaluator {

@@ -7,6 +7,8 @@ mod convert;
 mod data;
 mod demo;
 #[cfg(feature = "learn")]
+mod device;
+#[cfg(feature = "learn")]
 mod evaluate;
 mod exclude;
 mod exit;

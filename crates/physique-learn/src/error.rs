@@ -103,6 +103,14 @@ pub enum Error {
         /// What it is.
         found: f64,
     },
+    /// A device that this program or this machine does not have.
+    #[error("Device {device}: {problem}.")]
+    NoDevice {
+        /// The device that was asked for.
+        device: String,
+        /// Why there is none.
+        problem: String,
+    },
     /// The device failed.
     #[error("The device could not return its numbers: {problem}.")]
     Device {

@@ -13,12 +13,14 @@
 //! | PyTorch's checkpoints as data, and our own files | [`checkpoint`] |
 //! | training that can be killed and goes on | [`trainer`] |
 //! | random numbers that depend on their seed only | [`random`] |
+//! | processor or graphics processor | [`DeviceChoice`] |
 //!
 //! Motions are tensors `[batch][frames][columns]` of features that are normalised by
 //! [`FeatureStatistics`](physique_motion::features::FeatureStatistics).
 
 pub mod checkpoint;
 pub mod data;
+mod device;
 pub mod diffusion;
 pub mod error;
 pub mod evaluation;
@@ -32,9 +34,6 @@ mod tensors;
 pub mod text;
 pub mod trainer;
 
+pub use burn::tensor::Device;
+pub use device::{DeviceChoice, device};
 pub use error::Error;
-
-/// The device that networks run on: the processor.
-pub fn device() -> burn::tensor::Device {
-    burn::tensor::Device::flex()
-}

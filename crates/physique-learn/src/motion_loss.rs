@@ -5,9 +5,12 @@
 //! | a loss with its gradient | [`MotionLoss`] |
 //! | as an operation, and weighed | [`losses`], [`WeightedLoss`] |
 //! | bodies that pass through themselves | [`SelfIntersectionLoss`] |
+//! | the same on graphics processors | `GpuSelfIntersection`, by the features `wgpu` and `cuda` |
 //! | feet in the ground or above it | [`GroundLoss`] |
 //! | feet that slide | [`SlidingLoss`] |
 
+#[cfg(feature = "cubecl")]
+mod gpu;
 mod ground;
 mod joints;
 mod operation;
@@ -19,6 +22,8 @@ use std::fmt::Debug;
 
 use crate::Error;
 
+#[cfg(feature = "cubecl")]
+pub use gpu::GpuSelfIntersection;
 pub use ground::GroundLoss;
 pub use operation::losses;
 pub use self_intersection::SelfIntersectionLoss;
@@ -40,6 +45,13 @@ pub trait MotionLoss: Debug + Send + Sync {
         frames: usize,
         lengths: &[usize],
     ) -> Result<LossAndGradient, Error>;
+
+    /// The same as kernels of a graphics processor. Where there are none, motions are brought to the
+    /// processor, and the gradient back.
+    #[cfg(feature = "cubecl")]
+    fn on_gpu(&self) -> Option<&GpuSelfIntersection> {
+        None
+    }
 }
 
 /// What a [`MotionLoss`] finds.

@@ -40,7 +40,7 @@ mod uniform;
 pub use bone_rotations::{BoneRotations, Heading};
 pub use extract::{extract, extract_window};
 pub use gradient::{GradientRule, recover_from_positions_gradient};
-pub use kit::{kit_from_smpl, smpl_from_kit, smpl_from_kit_gradient};
+pub use kit::{KIT_SOURCES, kit_from_smpl, smpl_from_kit, smpl_from_kit_gradient};
 pub use layout::FeatureLayout;
 pub use matrix::MotionFeatures;
 pub use npy::{JointFile, parse, read, write_features, write_positions};

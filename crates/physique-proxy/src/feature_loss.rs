@@ -28,6 +28,7 @@ pub type JointFrame = [[f32; 3]; Joint::COUNT];
 #[derive(Debug)]
 pub struct FeatureLoss {
     loss: SelfIntersection,
+    layer: RotationLayer,
     swings: Swings,
     rule: GradientRule,
 }
@@ -64,7 +65,28 @@ impl FeatureLoss {
     /// ([`RotationLayer::published`]), or for the body ([`RotationLayer::for_body`]).
     pub fn new(loss: SelfIntersection, layer: &RotationLayer, rule: GradientRule) -> Self {
         let swings = Swings::new(layer, rule);
-        Self { loss, swings, rule }
+        let layer = layer.clone();
+        Self {
+            loss,
+            layer,
+            swings,
+            rule,
+        }
+    }
+
+    /// The loss of poses.
+    pub const fn loss(&self) -> &SelfIntersection {
+        &self.loss
+    }
+
+    /// What makes poses of positions.
+    pub const fn layer(&self) -> &RotationLayer {
+        &self.layer
+    }
+
+    /// How far a rotation's gradient reaches.
+    pub const fn rule(&self) -> GradientRule {
+        self.rule
     }
 
     /// The loss of the embedded open body in its mean shape: bones point where the features have

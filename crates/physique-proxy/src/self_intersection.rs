@@ -43,6 +43,8 @@ impl Default for SelfIntersectionOptions {
 pub struct SelfIntersection {
     engine: Box<dyn Engine>,
     backend: Backend,
+    body: SphereBody,
+    pairs: Pairs,
     options: SelfIntersectionOptions,
 }
 
@@ -87,6 +89,8 @@ impl SelfIntersection {
         Ok(Self {
             engine,
             backend,
+            body: body.clone(),
+            pairs: pairs.clone(),
             options: *options,
         })
     }
@@ -94,6 +98,21 @@ impl SelfIntersection {
     /// The vector instructions in use.
     pub fn backend(&self) -> Backend {
         self.backend
+    }
+
+    /// The body that it is of.
+    pub const fn body(&self) -> &SphereBody {
+        &self.body
+    }
+
+    /// The spheres that it compares.
+    pub const fn pairs(&self) -> &Pairs {
+        &self.pairs
+    }
+
+    /// How it is measured.
+    pub const fn options(&self) -> &SelfIntersectionOptions {
+        &self.options
     }
 
     /// The loss of every frame, into `losses`.

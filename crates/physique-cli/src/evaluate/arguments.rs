@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 use physique_data::Split;
 
 use crate::body_choice::BodyArguments;
+use crate::device::DeviceArguments;
 use crate::generate::arguments::SamplingArguments;
 
 #[derive(Debug, Args)]
@@ -35,6 +36,8 @@ pub(crate) struct EvaluateArguments {
     pub(crate) judge: JudgeArguments,
     #[command(flatten)]
     pub(crate) sampling: SamplingArguments,
+    #[command(flatten)]
+    pub(crate) device: DeviceArguments,
     #[command(flatten)]
     pub(crate) body: BodyArguments,
 }

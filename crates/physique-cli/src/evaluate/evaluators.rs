@@ -3,6 +3,7 @@
 use anyhow::{Context, Result, bail};
 use physique::motion::Limits;
 use physique::motion::features::FeatureStatistics;
+use physique_learn::DeviceChoice;
 use physique_learn::checkpoint::CheckpointLimits;
 use physique_learn::evaluation::sentence::SentenceEvaluator;
 use physique_learn::evaluation::{
@@ -13,12 +14,15 @@ use super::arguments::EvaluatorArguments;
 
 /// Our own evaluator from a folder, or a published one from its files; none where only the judge is
 /// asked.
-pub(super) fn open(arguments: &EvaluatorArguments) -> Result<Option<Box<dyn PairEvaluator>>> {
+pub(super) fn open(
+    arguments: &EvaluatorArguments,
+    device: DeviceChoice,
+) -> Result<Option<Box<dyn PairEvaluator>>> {
     let Some(path) = &arguments.evaluator else {
         return Ok(None);
     };
     let limits = CheckpointLimits::default();
-    let device = physique_learn::device();
+    let device = device.open()?;
     if path.is_dir() {
         if arguments.glove.is_some() || arguments.mean.is_some() {
             bail!(

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use physique_data::Dataset;
+use physique_learn::DeviceChoice;
 use physique_learn::checkpoint::CheckpointLimits;
 use physique_learn::evaluation::TextToMotionGenerator;
 use physique_learn::mdm::{MdmFolder, TextToMotion};
@@ -21,7 +22,7 @@ pub(super) fn open_all(
     let models = arguments.models.iter();
     models
         .map(|folder| {
-            let model = open(folder, dataset)?;
+            let model = open(folder, dataset, arguments.device.device)?;
             let name = name(folder, arguments);
             let frames = dataset.index().longest_window;
             Ok(TextToMotionGenerator::new(model, sampling, name, frames))
@@ -29,8 +30,8 @@ pub(super) fn open_all(
         .collect()
 }
 
-fn open(folder: &Path, dataset: &Dataset) -> Result<TextToMotion> {
-    let device = physique_learn::device();
+fn open(folder: &Path, dataset: &Dataset, device: DeviceChoice) -> Result<TextToMotion> {
+    let device = device.open()?;
     let model = MdmFolder::read(folder, &CheckpointLimits::default(), &device)?;
     let skeleton = model.statistics.skeleton();
     if skeleton != dataset.skeleton() {

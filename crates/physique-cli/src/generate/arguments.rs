@@ -8,6 +8,7 @@ use physique_learn::diffusion::GuideWeights;
 use crate::arguments::ReadArguments;
 use crate::body_choice::BodyArguments;
 use crate::convert::arguments::FormatName;
+use crate::device::DeviceArguments;
 
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
@@ -63,6 +64,8 @@ pub(crate) struct ModelArguments {
     /// the network was trained with it].
     #[arg(long, value_name = "NAME|FOLDER")]
     pub(crate) text: Option<String>,
+    #[command(flatten)]
+    pub(crate) device: DeviceArguments,
 }
 
 #[derive(Debug, Args)]

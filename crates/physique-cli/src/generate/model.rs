@@ -6,6 +6,7 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use physique::motion::Limits;
 use physique::motion::features::{FeatureSkeleton, FeatureStatistics};
+use physique_learn::DeviceChoice;
 use physique_learn::checkpoint::CheckpointLimits;
 use physique_learn::mdm::{MdmDescription, MdmFolder, TextToMotion, read_published};
 
@@ -18,14 +19,15 @@ const EMBEDDED: &str = "all-MiniLM-L6-v2";
 
 /// Opens the network of the flags with its text encoder.
 pub(super) fn open(arguments: &ModelArguments, read: &ReadArguments) -> Result<TextToMotion> {
+    let choice = arguments.device.device;
     let Some(path) = &arguments.model else {
-        return embedded();
+        return embedded(choice);
     };
     let limits = CheckpointLimits::default();
-    let device = physique_learn::device();
+    let device = choice.open()?;
     let folder = match path.is_dir() {
         true => MdmFolder::read(path, &limits, &device)?,
-        false => published(path, read, &limits)?,
+        false => published(path, read, &limits, choice)?,
     };
     let wanted = folder.description.text_encoder.as_str();
     let encoder = match &arguments.text {
@@ -41,20 +43,25 @@ pub(super) fn open(arguments: &ModelArguments, read: &ReadArguments) -> Result<T
 }
 
 /// The embedded network.
-pub(crate) fn embedded() -> Result<TextToMotion> {
-    let folder = MdmFolder::embedded(&physique_learn::device())?;
+pub(crate) fn embedded(device: DeviceChoice) -> Result<TextToMotion> {
+    let folder = MdmFolder::embedded(&device.open()?)?;
     Ok(TextToMotion::new(folder, text_encoder::named("minilm")?)?)
 }
 
 /// A published checkpoint with the statistics of its data set.
-fn published(path: &Path, read: &ReadArguments, limits: &CheckpointLimits) -> Result<MdmFolder> {
+fn published(
+    path: &Path,
+    read: &ReadArguments,
+    limits: &CheckpointLimits,
+    device: DeviceChoice,
+) -> Result<MdmFolder> {
     let (Some(mean), Some(std)) = (&read.mean, &read.std) else {
         bail!(
             "{}: a published checkpoint needs the statistics of its data set: --mean Mean.npy --std Std.npy",
             path.display()
         );
     };
-    let (network, published) = read_published(path, limits, &physique_learn::device())?;
+    let (network, published) = read_published(path, limits, &device.open()?)?;
     let statistics = FeatureStatistics::read(mean, std, &Limits::default())?;
     let frame_rate = match statistics.skeleton() {
         FeatureSkeleton::HumanMl3d => 20.0,

@@ -3,6 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
+use physique_learn::DeviceChoice;
+
+use crate::device::DeviceArguments;
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum TrainVerb {
@@ -33,6 +36,8 @@ pub(crate) struct EvaluatorArguments {
     /// What all random numbers depend on [default: 10].
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
+    #[command(flatten)]
+    pub(crate) device: DeviceArguments,
 }
 
 #[derive(Debug, Args)]
@@ -65,6 +70,16 @@ pub(crate) struct MdmArguments {
     /// `none` for a network that is told nothing.
     #[arg(long, value_name = "NAME|FOLDER", default_value = "minilm")]
     pub(crate) text: String,
+    /// Where it is trained: `cpu`; `wgpu` for a graphics processor by Vulkan, Metal or Direct3D, or
+    /// `cuda`, in programs built with that feature. With a number for one of several, such as
+    /// `cuda:1`; more than one, by commas, share each batch.
+    #[arg(
+        long,
+        value_name = "NAME[:N],...",
+        value_delimiter = ',',
+        default_value = "cpu"
+    )]
+    pub(crate) device: Vec<DeviceChoice>,
     /// Print the plan with all its settings as JSON, and train nothing.
     #[arg(long)]
     pub(crate) print_plan: bool,

@@ -9,6 +9,7 @@ use super::watch::Watch;
 use crate::exit::Exit;
 
 pub(super) fn run(arguments: &EvaluatorArguments) -> Result<Exit> {
+    let device = arguments.device.device.open()?;
     let dataset = Dataset::open(&arguments.data, &DataLimits::default())?;
     let mut run = EvaluatorRun::default();
     if let Some(steps) = arguments.steps {
@@ -21,7 +22,6 @@ pub(super) fn run(arguments: &EvaluatorArguments) -> Result<Exit> {
         run.trainer.seed = seed;
     }
     let mut watch: Option<Watch> = None;
-    let device = physique_learn::device();
     eprintln!("note: reading the captions");
     train_evaluator(&dataset, &run, &arguments.output, &device, |report| {
         let begin = || Watch::new(report.step - 1, report.steps);

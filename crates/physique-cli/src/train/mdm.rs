@@ -14,6 +14,7 @@ use physique_learn::mdm::{
 };
 use physique_learn::text::{CaptionCentre, Embeddings, KnownCaptions, PromptEncoder};
 use physique_learn::trainer::{StepReport, Trainer};
+use physique_learn::{Device, DeviceChoice};
 use physique_text::TextEncoder;
 
 use super::arguments::MdmArguments;
@@ -45,6 +46,8 @@ pub(crate) fn run(arguments: &MdmArguments) -> Result<Exit> {
         println!("{}", serde_json::to_string_pretty(&plan)?);
         return Ok(Exit::Done);
     }
+    // Before captions are read, which takes a while.
+    let devices = open_devices(&arguments.device)?;
     if let Some(start) = &start {
         start::check(start, &plan, encoder.as_deref(), &dataset)?;
         start::keep_captions(start, &arguments.output)?;
@@ -54,7 +57,8 @@ pub(crate) fn run(arguments: &MdmArguments) -> Result<Exit> {
     let told = encoder
         .map(|encoder| Told::new(encoder, &dataset, centre))
         .transpose()?;
-    train(arguments, &plan, &dataset, told.as_ref(), start.as_ref())?;
+    let (told, start) = (told.as_ref(), start.as_ref());
+    train(arguments, &plan, &dataset, told, start, &devices)?;
     println!("{}", arguments.output.join("model").display());
     Ok(Exit::Done)
 }
@@ -123,12 +127,19 @@ fn spread<'a>(items: &[&'a str], most: usize) -> Vec<&'a str> {
         .collect()
 }
 
+/// Devices that differentiate.
+fn open_devices(choices: &[DeviceChoice]) -> Result<Vec<Device>> {
+    let devices = choices.iter().map(|choice| Ok(choice.open()?.autodiff()));
+    devices.collect()
+}
+
 fn train(
     arguments: &MdmArguments,
     plan: &MdmPlan,
     dataset: &Dataset,
     told: Option<&Told>,
     start: Option<&StartingNetwork>,
+    devices: &[Device],
 ) -> Result<()> {
     let frame_rate = dataset.frame_rate().per_second();
     let longest = plan.windows.longest_seconds;
@@ -143,13 +154,16 @@ fn train(
     };
     let prompts = told.map(|told| &told.prompts);
     let source = CaptionedMotions::new(dataset, options, prompts)?;
-    let device = physique_learn::device().autodiff();
     let task = MdmTask::new(source, dataset.statistics(), plan.training.clone())?;
+    let home = devices.first().context("expected a device, found none")?;
     let network = match start {
-        Some(start) => start.network(&plan.network, &device)?,
-        None => Mdm::new(&plan.network, plan.run.seed, &device)?,
+        Some(start) => start.network(&plan.network, home)?,
+        None => Mdm::new(&plan.network, plan.run.seed, home)?,
     };
     let mut trainer = Trainer::open(task, network, plan.run.clone(), &arguments.output)?;
+    if devices.len() > 1 {
+        trainer = trainer.on_devices(devices.to_vec());
+    }
     if start.is_some() {
         // From here on the run needs the network that it started from no more.
         trainer.save()?;

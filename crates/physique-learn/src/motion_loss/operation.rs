@@ -35,7 +35,8 @@ pub(crate) struct LossTensors<B: Backend> {
 }
 
 /// Backends that evaluate a [`MotionLoss`].
-#[backend_extension(Autodiff, Flex)]
+#[cfg_attr(not(feature = "cubecl"), backend_extension(Autodiff, Flex))]
+#[cfg_attr(feature = "cubecl", backend_extension(Autodiff, Flex, Cube))]
 pub(crate) trait MotionLossOps: Backend {
     /// The loss of each motion.
     fn motion_losses(
@@ -66,22 +67,63 @@ impl MotionLossOps for Flex {
         loss: Arc<dyn MotionLoss>,
         lengths: Vec<usize>,
     ) -> LossTensors<Self> {
-        let shape = motions.shape();
-        let (batch, frames) = (shape[0], shape[1]);
-        let numbers: Vec<f32> = motions.to_contiguous().into_data().iter::<f32>().collect();
-        let found = loss.evaluate(&numbers, frames, &lengths);
-        // An operation cannot fail; what cannot be measured is no number, which training stops at.
-        let LossAndGradient { losses, gradient } = found.unwrap_or_else(|_| LossAndGradient {
-            losses: vec![f32::NAN; batch],
-            gradient: vec![0.0; numbers.len()],
-        });
-        let of = |values: Vec<f32>, shape: Shape| {
-            FloatTensor::<Self>::from_data(TensorData::new(values, shape))
-        };
+        let found = on_processor(motions.to_contiguous().into_data(), &loss, &lengths);
         LossTensors {
-            losses: of(losses, Shape::new([batch])),
-            gradient: of(gradient, shape),
+            losses: FloatTensor::<Self>::from_data(found.0),
+            gradient: FloatTensor::<Self>::from_data(found.1),
         }
+    }
+}
+
+/// Losses and gradient of the numbers of motions.
+fn on_processor(
+    motions: TensorData,
+    loss: &Arc<dyn MotionLoss>,
+    lengths: &[usize],
+) -> (TensorData, TensorData) {
+    let shape = motions.shape().clone();
+    let (batch, frames) = (shape[0], shape[1]);
+    let numbers: Vec<f32> = motions.iter::<f32>().collect();
+    let found = loss.evaluate(&numbers, frames, lengths);
+    // An operation cannot fail; what cannot be measured is no number, which training stops at.
+    let LossAndGradient { losses, gradient } = found.unwrap_or_else(|_| LossAndGradient {
+        losses: vec![f32::NAN; batch],
+        gradient: vec![0.0; numbers.len()],
+    });
+    let losses = TensorData::new(losses, [batch]);
+    (losses, TensorData::new(gradient, shape))
+}
+
+#[cfg(feature = "cubecl")]
+use burn::backend::ops::FloatTensorOps;
+
+#[cfg(feature = "cubecl")]
+impl MotionLossOps for burn_cubecl::CubeBackend {
+    fn motion_losses(
+        motions: FloatTensor<Self>,
+        loss: Arc<dyn MotionLoss>,
+        lengths: Vec<usize>,
+    ) -> FloatTensor<Self> {
+        Self::motion_losses_with_gradient(motions, loss, lengths).losses
+    }
+
+    fn motion_losses_with_gradient(
+        motions: FloatTensor<Self>,
+        loss: Arc<dyn MotionLoss>,
+        lengths: Vec<usize>,
+    ) -> LossTensors<Self> {
+        let kernels = loss.on_gpu().filter(|gpu| gpu.fits(&motions, &lengths));
+        let (losses, gradient) = match kernels {
+            Some(kernels) => kernels.evaluate(motions, &lengths),
+            None => {
+                let device = motions.device.clone();
+                let data = burn_cubecl::ops::into_data_sync(motions);
+                let (losses, gradient) = on_processor(data, &loss, &lengths);
+                let load = |data| <Self as FloatTensorOps<Self>>::float_from_data(data, &device);
+                (load(losses), load(gradient))
+            }
+        };
+        LossTensors { losses, gradient }
     }
 }
 

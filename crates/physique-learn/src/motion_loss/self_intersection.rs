@@ -17,12 +17,19 @@ use crate::Error;
 pub struct SelfIntersectionLoss {
     loss: FeatureLoss,
     statistics: FeatureStatistics,
+    #[cfg(feature = "cubecl")]
+    on_gpu: super::GpuSelfIntersection,
 }
 
 impl SelfIntersectionLoss {
     /// A loss for features that are normalised by `statistics`; `loss` must be for their skeleton.
-    pub const fn new(loss: FeatureLoss, statistics: FeatureStatistics) -> Self {
-        Self { loss, statistics }
+    pub fn new(loss: FeatureLoss, statistics: FeatureStatistics) -> Self {
+        Self {
+            #[cfg(feature = "cubecl")]
+            on_gpu: super::GpuSelfIntersection::new(&loss, &statistics),
+            loss,
+            statistics,
+        }
     }
 
     /// The loss of the embedded open body with the paper's gradient, which reaches a joint by its
@@ -76,5 +83,10 @@ impl MotionLoss for SelfIntersectionLoss {
             losses: means.collect(),
             gradient: found.by_features,
         })
+    }
+
+    #[cfg(feature = "cubecl")]
+    fn on_gpu(&self) -> Option<&super::GpuSelfIntersection> {
+        Some(&self.on_gpu)
     }
 }

@@ -75,7 +75,8 @@ pub(super) fn differentiate<T: Task>(
         });
         ended.collect()
     });
-    let home = network.devices().into_iter().next().unwrap_or_default();
+    let home = network.devices().into_iter().next();
+    let home = home.unwrap_or_else(crate::device);
     let mut sum: Option<Differentiated> = None;
     for found in found {
         let found = found?;

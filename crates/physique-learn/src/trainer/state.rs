@@ -132,7 +132,7 @@ pub(super) fn read<N: Module>(
         .devices()
         .into_iter()
         .next()
-        .map_or_else(Device::default, Device::inner);
+        .map_or_else(crate::device, Device::inner);
     let network = state.clone().below(NETWORK).load(network, "the run", &[])?;
     let average = match average {
         Some(average) => Some(state.clone().below(AVERAGE).load(average, "the run", &[])?),

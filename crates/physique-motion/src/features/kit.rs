@@ -7,7 +7,7 @@ use crate::Error;
 
 /// By SMPL joint: the two KIT joints that it lies in the middle of, or one of them twice.
 #[rustfmt::skip]
-const SOURCES: [[usize; 2]; 22] = [
+pub const KIT_SOURCES: [[usize; 2]; 22] = [
     [0, 0], [11, 11], [16, 16], [1, 1], [12, 12], [17, 17], [1, 2], [13, 13], [18, 18], [2, 2],
     [15, 15], [20, 20], [3, 3], [2, 5], [2, 8], [4, 4], [5, 5], [8, 8], [6, 6], [9, 9], [7, 7],
     [10, 10],
@@ -25,13 +25,13 @@ const HANDED: DVec3 = DVec3::new(-1.0, 1.0, 1.0);
 pub fn smpl_from_kit(joints: &[Vec3]) -> Result<[Vec3; 22], Error> {
     let joints: &[Vec3; 21] = joints.try_into().map_err(|_| count_error(joints.len()))?;
     let middle = |[a, b]: [usize; 2]| (joints[a] + joints[b]) / 2.0 * HANDED.as_vec3();
-    Ok(SOURCES.map(middle))
+    Ok(KIT_SOURCES.map(middle))
 }
 
 /// The gradient by KIT's joints from the one by SMPL's: the transpose of [`smpl_from_kit`].
 pub fn smpl_from_kit_gradient(by_smpl: &[DVec3; 22]) -> [DVec3; 21] {
     let mut by_kit = [DVec3::ZERO; 21];
-    for (sources, gradient) in SOURCES.iter().zip(by_smpl) {
+    for (sources, gradient) in KIT_SOURCES.iter().zip(by_smpl) {
         for &joint in sources {
             by_kit[joint] += *gradient / 2.0 * HANDED;
         }
