@@ -3,8 +3,9 @@
 //! `torch.save` writes a pickle that describes tensors, and beside it their numbers: since
 //! PyTorch 1.6 as entries of a ZIP archive, before that one after the other behind five pickles.
 //! Both are read; modules, optimisers and anything else that is more than data is refused by name,
-//! as everywhere in [`crate::pickle`]. TorchScript archives and the tar files of PyTorch 0.1 are
-//! refused.
+//! as everywhere in [`crate::pickle`]. `torch.jit.save` writes the same archive around a program:
+//! its modules are objects of which only the attributes are read, parameters and modules among them;
+//! its code is not looked at. The tar files of PyTorch 0.1 are refused.
 
 mod legacy;
 mod zipped;

@@ -6,9 +6,9 @@ use std::fs;
 use std::path::PathBuf;
 
 use physique_files::npz::{Array, ArrayLimits};
-use physique_files::pickle::{PickleError, PickleLimits};
+use physique_files::pickle::{Pickle, PickleError, PickleLimits};
 use physique_files::torch::TorchFile;
-use physique_files::{Error, named_arrays};
+use physique_files::{Data, Error, named_arrays};
 
 fn fixture(name: &str) -> Vec<u8> {
     fs::read(PathBuf::from("tests/fixtures").join(name)).unwrap()
@@ -122,4 +122,104 @@ fn a_file_of_no_known_kind() {
             "{bytes:?}"
         );
     }
+}
+
+/// Of a TorchScript program the parameters are read, by their path through its modules.
+#[test]
+fn a_program_is_its_parameters() {
+    let file = open(fixture("script.pt")).unwrap();
+    assert_eq!(file.root().kind(), "an object");
+    let inner = file.root().attribute("inner").unwrap();
+    let weight = inner.attribute("0").unwrap().attribute("weight").unwrap();
+    let weight = file.array(weight, "weight").unwrap();
+    assert_eq!(weight.shape(), [2, 3]);
+    assert_eq!(weight.to_f64().unwrap(), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+
+    let arrays = named("script.pt");
+    let of = |key: &str| arrays.iter().find(|array| array.key() == key).unwrap();
+    for key in ["weight", "inner.0.weight", "again.0.weight"] {
+        let expected: Vec<f64> = (0..6).map(f64::from).collect();
+        assert_eq!(of(key).to_f64().unwrap(), expected, "{key}");
+    }
+    assert_eq!(of("mask").to_f64().unwrap(), [1.0, 0.0]);
+    assert_eq!(of("several.0").to_f64().unwrap(), [1.0, 1.0]);
+    assert_eq!(of("inner.0.bias").shape(), [2]);
+}
+
+#[test]
+fn a_broken_program_is_refused() {
+    let whole = fixture("script.pt");
+    let limits = (ArrayLimits::default(), PickleLimits::default());
+    for length in (0..whole.len()).step_by(61) {
+        let error = named_arrays(whole[..length].to_vec(), &limits.0, &limits.1);
+        assert!(error.is_err(), "{length} bytes of {}", whole.len());
+    }
+    let small = ArrayLimits {
+        bytes: 100,
+        ..limits.0
+    };
+    assert!(named_arrays(whole, &small, &limits.1).is_err());
+}
+
+/// Instructions of protocol 2 for a module with one attribute for each of the values.
+fn module(attributes: &[(&str, &[u8])]) -> Vec<u8> {
+    let mut bytes = b"c__torch__.a.stranger\nM\n)\x81}(".to_vec();
+    for (name, value) in attributes {
+        bytes.extend([b'X', name.len() as u8, 0, 0, 0]);
+        bytes.extend(name.as_bytes());
+        bytes.extend(*value);
+    }
+    bytes.extend(b"ub");
+    bytes
+}
+
+fn read_pickle(body: &[u8]) -> Result<Pickle, PickleError> {
+    Pickle::read([b"\x80\x02", body, b"."].concat(), &PickleLimits::default())
+}
+
+#[test]
+fn modules_that_contain_themselves_or_each_other_many_times_end_at_a_limit() {
+    // Memo 0 is the module itself.
+    let body = module(&[("me", b"h\x00")]);
+    let at = body.iter().position(|&byte| byte == 0x81).unwrap();
+    let itself = [&body[..=at], b"q\x00", &body[at + 1..]].concat();
+    let error = Data::of_pickle(&read_pickle(&itself).unwrap(), "", 1 << 20);
+    assert!(matches!(error, Err(Error::NamedArrays { .. })), "{error:?}");
+
+    // Fourteen modules, each twice in the next: 16,384 copies of the innermost.
+    let mut nested = [module(&[]), b"q\x00".to_vec()].concat();
+    for depth in 1..15_u8 {
+        let before = [b'h', depth - 1];
+        nested.extend(b"0");
+        nested.extend(module(&[("a", &before), ("b", &before)]));
+        nested.extend([b'q', depth]);
+    }
+    let pickle = read_pickle(&nested).unwrap();
+    let error = Data::of_pickle(&pickle, "", 1 << 16);
+    assert!(matches!(error, Err(Error::NamedArrays { .. })), "{error:?}");
+}
+
+#[test]
+fn programs_name_their_own_classes_only() {
+    for (body, name) in [
+        (&b"c__torch__evil\nM\n)\x81"[..], "__torch__evil"),
+        (b"ctorch.jit._pickle\nrun\n)R", "torch.jit._pickle"),
+        (b"ctorch.jit\nload\n)R", "torch.jit"),
+    ] {
+        match read_pickle(body) {
+            Err(PickleError::Refused { module, .. }) => assert_eq!(module, name),
+            other => panic!("{other:?}"),
+        }
+    }
+    // A class makes an object of no arguments; it is never called with any.
+    let called = read_pickle(b"c__torch__\nM\nX\x01\x00\x00\x00a\x85R");
+    assert!(
+        matches!(called, Err(PickleError::Call { .. })),
+        "{called:?}"
+    );
+    let marked = read_pickle(b"ctorch.jit._pickle\nbuild_intlist\n)R");
+    assert!(
+        matches!(marked, Err(PickleError::Call { .. })),
+        "{marked:?}"
+    );
 }

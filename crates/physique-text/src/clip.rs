@@ -52,8 +52,8 @@ pub struct Clip {
 }
 
 impl Clip {
-    /// Reads a folder in the layout of Hugging Face, or one that holds OpenAI's weights as a state
-    /// dictionary and `bpe_simple_vocab_16e6.txt.gz`.
+    /// Reads a folder in the layout of Hugging Face, or one that holds OpenAI's weights, as its own
+    /// `ViT-B-32.pt` or as a state dictionary, and `bpe_simple_vocab_16e6.txt.gz`.
     ///
     /// # Errors
     /// [`Error::File`], [`Error::Missing`]; [`Error::Format`] and [`Error::Data`] for files that do

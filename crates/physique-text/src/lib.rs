@@ -8,7 +8,7 @@
 //! | [`Clip`] | the user's `ViT-B/32` | one vector of 512 numbers |
 //! | [`DistilBert`] | the user's folder | a vector of 768 numbers a token, and a mask |
 //!
-//! [`open`] tells a folder of the user's by its `config.json`. [`CaptionIndex`] finds the training
+//! [`open`] tells a folder of the user's by its `config.json`, and reads CLIP's own TorchScript file. [`CaptionIndex`] finds the training
 //! caption that is nearest to a prompt, so that a generator can say when it is asked for what it does
 //! not know.
 //!
@@ -33,7 +33,7 @@ mod weights;
 pub use clip::{Clip, ClipContext};
 pub use distil_bert::DistilBert;
 pub use embeddings::TextEmbeddings;
-pub use encoder::{TextEncoder, open};
+pub use encoder::{TextEncoder, open, open_with};
 pub use error::Error;
 pub use limits::TextLimits;
 pub use mini_lm::MiniLm;

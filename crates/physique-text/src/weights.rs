@@ -3,6 +3,7 @@
 mod file;
 mod rows;
 
+pub(crate) use file::OPENAI_FILE;
 pub(crate) use rows::Rows;
 
 use std::collections::BTreeMap;

@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use physique_text::{Clip, ClipContext, DistilBert, Error, MiniLm, TextEncoder, TextLimits, open};
+use physique_text::{
+    Clip, ClipContext, DistilBert, Error, MiniLm, TextEncoder, TextLimits, open, open_with,
+};
 use serde_json::Value;
 
 fn fixture(name: &str) -> PathBuf {
@@ -115,6 +117,63 @@ fn clip_takes_openais_layout() {
         let difference = furthest(rows, &expected);
         assert!(difference < 1e-5, "{difference}");
     }
+}
+
+/// OpenAI's own file is a program: its parameters are read, its code is not run.
+#[test]
+fn clip_takes_openais_own_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    for (name, from) in [
+        ("ViT-B-32.pt", "clip_script"),
+        ("vocab.json", "clip"),
+        ("merges.txt", "clip"),
+    ] {
+        fs::copy(fixture(from).join(name), at(name)).unwrap();
+    }
+    let limits = TextLimits::default();
+    let captions = golden("clip/golden.json");
+    let captions = texts(&captions["captions"]);
+    let expected = vectors(&golden("clip_script/golden.json")["vectors"]);
+    // The file itself, or its folder.
+    for path in [at("ViT-B-32.pt"), folder.path().to_owned()] {
+        let encoder = open(&path, &limits).unwrap();
+        assert_eq!((encoder.name(), encoder.width()), ("CLIP", 16));
+        for (rows, expected) in encoder.encode(&captions).rows().zip(&expected) {
+            let difference = furthest(rows, expected);
+            assert!(difference < 1e-5, "{difference}");
+        }
+    }
+    // As MDM reads: nothing behind the twentieth piece.
+    let long = "a person walks ".repeat(20);
+    let same = |context| {
+        let encoder = open_with(&at("ViT-B-32.pt"), context, &limits).unwrap();
+        let [cut, whole] = [&long[..150], &long].map(|text| encoder.encode(&[text]));
+        cut == whole
+    };
+    assert!(same(ClipContext::Mdm) && !same(ClipContext::Whole));
+
+    let told = |path: &Path, limits: &TextLimits| open(path, limits).unwrap_err().to_string();
+    let bytes = fs::read(at("ViT-B-32.pt")).unwrap();
+    for length in (0..bytes.len()).step_by(9973) {
+        fs::write(at("ViT-B-32.pt"), &bytes[..length]).unwrap();
+        assert!(
+            told(&at("ViT-B-32.pt"), &limits).contains("ViT-B-32.pt"),
+            "{length}"
+        );
+    }
+    fs::write(at("ViT-B-32.pt"), &bytes).unwrap();
+    let small = TextLimits {
+        weight_bytes: 150_000,
+        ..limits
+    };
+    assert!(told(&at("ViT-B-32.pt"), &small).contains("ViT-B-32.pt"));
+    fs::remove_file(at("merges.txt")).unwrap();
+    let problem = told(&at("ViT-B-32.pt"), &limits);
+    assert!(
+        problem.contains("bpe_simple_vocab_16e6.txt.gz"),
+        "{problem}"
+    );
 }
 
 #[test]

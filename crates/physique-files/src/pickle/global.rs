@@ -26,7 +26,12 @@ pub(super) enum Global {
     TorchTensor,
     TorchParameter,
     TorchStorage(StorageElement),
+    /// TorchScript's marks of a value's type: the value.
+    ScriptValue,
 }
+
+/// What every class of a TorchScript program is to us: its attributes.
+const SCRIPT_MODULE: &str = "a TorchScript module";
 
 impl Global {
     /// Looks a name up; `None` means that it is refused.
@@ -63,6 +68,14 @@ impl Global {
             (b"torch._utils", b"_rebuild_tensor_v2" | b"_rebuild_tensor") => Self::TorchTensor,
             (b"torch._utils", b"_rebuild_parameter") => Self::TorchParameter,
             (b"torch" | b"torch.cuda", storage) => Self::TorchStorage(storage_element(storage)?),
+            (
+                b"torch.jit._pickle",
+                b"build_intlist" | b"build_doublelist" | b"build_boollist" | b"build_tensorlist"
+                | b"restore_type_tag",
+            ) => Self::ScriptValue,
+            (module, _) if module == b"__torch__" || module.starts_with(b"__torch__.") => {
+                Self::Record(SCRIPT_MODULE)
+            }
             _ => return None,
         })
     }
@@ -87,6 +100,7 @@ impl Global {
             Self::TorchTensor => "torch._utils._rebuild_tensor_v2",
             Self::TorchParameter => "torch._utils._rebuild_parameter",
             Self::TorchStorage(_) => "a storage of torch",
+            Self::ScriptValue => "a mark of torch.jit._pickle",
         }
     }
 }

@@ -41,6 +41,10 @@ impl Machine {
                 [tensor, ..] if matches!(self.node(tensor), Node::Tensor(_)) => Ok(tensor),
                 _ => Err(self.wrong(callable, "a tensor first", arguments)),
             },
+            Global::ScriptValue => match *arguments {
+                [value] | [value, _] => Ok(value),
+                _ => Err(self.wrong(callable, "a value", arguments)),
+            },
             class => self.construct(class, arguments),
         }
     }

@@ -1,4 +1,5 @@
-//! The form since PyTorch 1.6: `name/data.pkl`, `name/byteorder` and `name/data/0` and on.
+//! The form since PyTorch 1.6: `name/data.pkl`, `name/byteorder` and `name/data/0` and on. TorchScript
+//! adds `name/code/` and `name/constants.pkl`, which are not looked at.
 
 use super::{Numbers, TorchFile};
 use crate::Error;
@@ -23,13 +24,6 @@ pub(super) fn read(
         expected: "an entry `data.pkl`",
         found: format!("{} other entries", names.len()),
     })?;
-    if names.contains(&format!("{folder}constants.pkl")) {
-        return Err(Error::Torch {
-            place: format!("{folder}constants.pkl"),
-            expected: "tensors saved by `torch.save`",
-            found: "a TorchScript program".into(),
-        });
-    }
     let order_name = format!("{folder}byteorder");
     let mut byte_order = ByteOrder::Little;
     if names.contains(&order_name) {

@@ -47,6 +47,9 @@ impl TorchCheckpoint {
         };
         match checkpoint.torch.root().view() {
             View::Dict(_) => Ok(checkpoint),
+            View::Object(object) => {
+                Err(checkpoint.refuse("the whole file", "a dictionary", object.class))
+            }
             _ => {
                 let found = checkpoint.torch.root().kind();
                 Err(checkpoint.refuse("the whole file", "a dictionary", found))

@@ -11,12 +11,16 @@ use safetensors::{Dtype, SafeTensors};
 use super::{Numbers, Tensor, Weights};
 use crate::{Error, TextLimits};
 
+/// OpenAI's own file of CLIP: a TorchScript program, of which the parameters are read.
+pub(crate) const OPENAI_FILE: &str = "ViT-B-32.pt";
+
 /// Names under which folders keep weights, the better one first.
-const FILES: [&str; 4] = [
+const FILES: [&str; 5] = [
     "model.safetensors",
     "pytorch_model.bin",
     "open_clip_pytorch_model.bin",
     "model.pt",
+    OPENAI_FILE,
 ];
 
 impl Weights {
