@@ -14,11 +14,12 @@ use physique::motion::features::MotionFeatures;
 use physique::report::{MotionReport, ReportHead};
 use physique::{Report, ScoreOptions, Scorer};
 use physique_learn::diffusion::Method;
-use physique_learn::mdm::{KnownMotion, Prompt, Sampling, TextToMotion};
+use physique_learn::mdm::{Prompt, Sampling, TextToMotion};
 
 use crate::exit::Exit;
 use crate::table::table;
 use arguments::{GenerateArguments, SamplingArguments};
+use edit::Given;
 use output::Outputs;
 
 /// Motions that are sampled together: memory grows with them.
@@ -29,10 +30,10 @@ pub(crate) fn run(arguments: &GenerateArguments) -> Result<Exit> {
     let outputs = Outputs::new(arguments, texts.len() * usize::from(arguments.count))?;
     let network = model::open(&arguments.model, &arguments.read)?;
     let scorer = Scorer::new(arguments.body.body()?, ScoreOptions::default())?;
-    let known = edit::read(&arguments.edit, &arguments.read, &network, scorer.body())?;
-    let frames = match &known {
-        Some(known) => known.features.frame_count(),
-        None => frames(arguments.seconds, &network)?,
+    let given = edit::read(&arguments.edit, &arguments.read, &network, scorer.body())?;
+    let frames = match &given {
+        Given::Known(known) => known.features.frame_count(),
+        Given::Nothing | Given::After(_) => frames(arguments.seconds, &network)?,
     };
     for text in &texts {
         tell_of_unusual(text, &network);
@@ -47,7 +48,7 @@ pub(crate) fn run(arguments: &GenerateArguments) -> Result<Exit> {
             });
         }
     }
-    let motions = sample(&network, &prompts, arguments, known.as_ref())?;
+    let motions = sample(&network, &prompts, arguments, &given)?;
 
     let mut reports = Vec::new();
     for (number, (features, prompt)) in motions.iter().zip(&prompts).enumerate() {
@@ -129,14 +130,17 @@ fn sample(
     network: &TextToMotion,
     prompts: &[Prompt<'_>],
     arguments: &GenerateArguments,
-    known: Option<&KnownMotion>,
+    given: &Given,
 ) -> Result<Vec<MotionFeatures>> {
     let mut sampling = sampling(&arguments.sampling);
     if arguments.sampling.smooth.is_none() && network.frame_rate().per_second() > 16.0 {
         sampling.smooth_hz = Some(SMOOTH_HZ);
     }
     let default = network.folder().description.diffusion_steps;
-    let steps = sampling.steps.unwrap_or(default);
+    let frames = prompts.iter().map(|prompt| prompt.frames).max();
+    let planner = network.folder().network.config().planner;
+    let pieces = planner.map_or(1, |of| frames.unwrap_or(0).div_ceil(of.prediction));
+    let steps = sampling.steps.unwrap_or(default) * pieces;
     let bar = ProgressBar::new((prompts.len().div_ceil(AT_ONCE) * steps) as u64);
     // A constant template; were it wrong, indicatif's own style would show.
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} steps (left: {eta})") {
@@ -145,7 +149,12 @@ fn sample(
     bar.enable_steady_tick(Duration::from_millis(200));
     let mut motions = Vec::new();
     for batch in prompts.chunks(AT_ONCE) {
-        let made = network.generate(batch, sampling, known, |_| bar.inc(1))?;
+        let observe = |_| bar.inc(1);
+        let made = match given {
+            Given::Nothing => network.generate(batch, sampling, None, observe)?,
+            Given::Known(known) => network.generate(batch, sampling, Some(known), observe)?,
+            Given::After(motion) => network.go_on(batch, sampling, motion, observe)?,
+        };
         motions.extend(made);
     }
     bar.finish_and_clear();

@@ -3,47 +3,18 @@
 mod support;
 
 use std::fs;
-use std::path::Path;
 
+use support::learning::{CLIPS, path, recipe};
 use support::{fails, succeeds};
 
-const RECIPE: &str = r#"
-name = "embedded"
-licence = "zlib"
-attribution = "DeepMimic"
-mirror = true
-[windows]
-shortest = 1.0
-longest = 9.8
-[split]
-test = 0.34
-validation = 0.0
-[[source]]
-files = "{move}.motion.npz"
-[words.move.walk]
-does = ["walks"]
-[words.move.jump]
-does = ["jumps", "leaps"]
-held_out.does = ["hops"]
-[words.move.dance]
-does = ["dances"]
-[words.move.run]
-does = ["runs"]
-[[caption]]
-text = "a person {move.does}"
-"#;
-
-const CLIPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../physique-motion/assets");
-
-fn path(path: &Path) -> &str {
-    path.to_str().unwrap()
-}
+/// A word for runs besides.
+const RUNS: &str = "[words.move.run]\ndoes = [\"runs\"]\n";
 
 #[test]
 fn from_a_recipe_to_tables_and_lists() {
     let folder = tempfile::tempdir().unwrap();
     let (recipe, data) = (folder.path().join("mine.toml"), folder.path().join("a.pmd"));
-    fs::write(&recipe, RECIPE).unwrap();
+    fs::write(&recipe, self::recipe(0.34, RUNS)).unwrap();
     let build = ["data", "build", path(&recipe), CLIPS, "-o", path(&data)];
     let told = succeeds(&build);
     assert!(told.contains("6 motions found, 3 kept"), "{told}");

@@ -11,6 +11,7 @@ use physique::motion::FrameRate;
 use physique::motion::features::{
     FeatureSkeleton, JointPositions, MotionFeatures, extract, write_features,
 };
+use support::learning::{CLIP, PLAN};
 use support::{fails, succeeds};
 
 const ACTIONS: [&str; 4] = ["walks", "waves", "sits down", "turns left"];
@@ -157,4 +158,85 @@ fn what_is_missing_is_told() {
     assert!(told.contains("config.json"), "{told}");
     let told = fails(1, &["evaluate", "--data", &data, "--judge", "content"]);
     assert!(told.contains("Known motions"), "{told}");
+}
+
+/// Networks that CLIP reads for: the encoder is asked for, and taken from the flags.
+#[test]
+fn networks_are_evaluated_with_their_own_encoder() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| path(&folder.path().join(name));
+    let data = data(folder.path());
+    fs::write(folder.path().join("plan.toml"), PLAN).unwrap();
+    let run = at("run");
+    let train = ["train", "mdm", "--data", &data, "-o", &run, "--text", CLIP];
+    let plan = ["--plan", &at("plan.toml"), "--sample-every", "0"];
+    succeeds(&[&train[..], &plan].concat());
+    let evaluator = at("evaluator");
+    let train = ["train", "evaluator", "--data", &data, "-o", &evaluator];
+    succeeds(&[&train[..], &["--steps", "1"]].concat());
+
+    let model = at("run/model");
+    let evaluate = ["evaluate", "--data", &data, "--evaluator", &evaluator];
+    let less = [
+        "--repetitions",
+        "1",
+        "--multimodality",
+        "0",
+        "--motions",
+        "32",
+    ];
+    let less = [&less[..], &["--no-self-intersection", "--steps", "2"]].concat();
+    let evaluate = [&evaluate[..], &less, &["--model", &model]].concat();
+    let told = fails(1, &evaluate);
+    assert!(
+        told.contains("trained with the text encoder CLIP; say where it lies"),
+        "{told}"
+    );
+    let told = fails(1, &[&evaluate[..], &["--text", "minilm"]].concat());
+    assert!(
+        told.contains("--text FOLDER|FILE, found all-MiniLM-L6-v2"),
+        "{told}"
+    );
+    let told = succeeds(&[&evaluate[..], &["--text", "minilm", "--text", CLIP]].concat());
+    assert!(told.lines().any(|line| line.starts_with("model")), "{told}");
+
+    // A published file has its data set's statistics; this one is of six columns.
+    let published = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../physique-learn/tests/fixtures/checkpoints/flat.pt"
+    );
+    let evaluate = [
+        "evaluate",
+        "--data",
+        &data,
+        "--evaluator",
+        &evaluator,
+        "--model",
+        published,
+    ];
+    let told = fails(1, &[&evaluate[..], &["--text", CLIP]].concat());
+    assert!(
+        told.contains("expected 6 columns, as the network has"),
+        "{told}"
+    );
+
+    let out = at("out.bvh");
+    let generate = [
+        "generate",
+        "a person walks",
+        "-o",
+        &out,
+        "--model",
+        &model,
+        "--steps",
+        "2",
+    ];
+    let told = fails(1, &generate);
+    assert!(told.contains("text encoder CLIP"), "{told}");
+    let told = fails(
+        1,
+        &[&generate[..], &["--text", CLIP, "--after", &out]].concat(),
+    );
+    assert!(told.contains("makes whole motions"), "{told}");
+    succeeds(&[&generate[..], &["--text", CLIP, "--seconds", "2"]].concat());
 }

@@ -6,63 +6,14 @@ mod support;
 use std::fs;
 use std::path::Path;
 
+use support::learning::{CLIPS, PLAN, path, recipe};
 use support::{fails, succeeds};
-
-const RECIPE: &str = r#"
-name = "embedded"
-licence = "zlib"
-attribution = "DeepMimic"
-mirror = true
-[windows]
-shortest = 1.0
-longest = 9.8
-[split]
-test = 0.0
-validation = 0.0
-[[source]]
-files = "{move}.motion.npz"
-[words.move.walk]
-does = ["walks"]
-[words.move.jump]
-does = ["jumps", "leaps"]
-held_out.does = ["hops"]
-[words.move.dance]
-does = ["dances"]
-[[caption]]
-text = "a person {move.does}"
-"#;
-
-const PLAN: &str = r#"
-[network]
-width = 16
-layers = 1
-heads = 2
-feed_forward = 32
-mask_frames = true
-frames_per_token = 2
-[training]
-batch = 2
-diffusion_steps = 10
-[run]
-steps = 4
-save_every = 2
-log_every = 1
-average = 0.9
-[windows]
-longest_seconds = 2.0
-"#;
-
-const CLIPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../physique-motion/assets");
-
-fn path(path: &Path) -> &str {
-    path.to_str().unwrap()
-}
 
 /// A folder with a data file and a plan.
 fn prepared() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
-    fs::write(at("recipe.toml"), RECIPE).unwrap();
+    fs::write(at("recipe.toml"), recipe(0.0, "")).unwrap();
     fs::write(at("plan.toml"), PLAN).unwrap();
     let (recipe, data) = (at("recipe.toml"), at("data.pmd"));
     succeeds(&["data", "build", path(&recipe), CLIPS, "-o", path(&data)]);

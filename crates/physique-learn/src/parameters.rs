@@ -68,6 +68,11 @@ impl Parameters {
         }
     }
 
+    /// Numbers of all arrays.
+    pub fn count(&self) -> usize {
+        self.arrays.values().map(|array| array.values.len()).sum()
+    }
+
     /// Leaves out arrays whose names begin with one of `prefixes`.
     #[must_use]
     pub fn without(mut self, prefixes: &[&str]) -> Self {

@@ -442,6 +442,37 @@ fn a_folder_of_ours_is_all_that_is_needed() {
         told.contains("`format`") && told.contains("mdm 2"),
         "{told}"
     );
-    std::fs::write(&path, &text[..text.len() / 2]).expect("written");
+    // More than its numbers can fill: no memory is taken for it.
+    let huge = text.replace("\"width\": 8", "\"width\": 16384");
+    let huge = huge.replace("\"layers\": 1", "\"layers\": 1024");
+    std::fs::write(&path, huge).expect("written");
+    let told = read().expect_err("terabytes").to_string();
+    assert!(
+        told.contains("Setting network: expected one of about"),
+        "{told}"
+    );
+    std::fs::write(&path, &text).expect("written");
+
+    // Cut short anywhere, each of its files is refused.
+    for name in ["model.safetensors", "config.json", "mean.npy", "std.npy"] {
+        let path = folder.join(name);
+        let whole = std::fs::read(&path).expect("written");
+        for length in (0..whole.len()).step_by(whole.len().div_ceil(40)) {
+            std::fs::write(&path, &whole[..length]).expect("written");
+            let told = read().expect_err("half a file").to_string();
+            assert!(told.contains(name), "{name}, {length} bytes: {told}");
+        }
+        std::fs::write(&path, whole).expect("written");
+    }
+    assert!(read().is_ok());
+    // A head of 2^63 bytes, and numbers behind the end of the file.
+    let path = folder.join("model.safetensors");
+    let whole = std::fs::read(&path).expect("written");
+    let head = [&(1_u64 << 63).to_le_bytes()[..], &whole[8..]].concat();
+    std::fs::write(&path, head).expect("written");
+    assert!(read().is_err());
+    let text = String::from_utf8_lossy(&whole[8..300]).replace("[0,", "[9,");
+    let moved = [&whole[..8], text.as_bytes(), &whole[300..]].concat();
+    std::fs::write(&path, moved).expect("written");
     assert!(read().is_err());
 }

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use physique_data::Dataset;
-use physique_learn::DeviceChoice;
 use physique_learn::checkpoint::CheckpointLimits;
 use physique_learn::evaluation::TextToMotionGenerator;
 use physique_learn::mdm::{MdmFolder, TextToMotion};
@@ -22,7 +21,7 @@ pub(super) fn open_all(
     let models = arguments.models.iter();
     models
         .map(|folder| {
-            let model = open(folder, dataset, arguments.device.device)?;
+            let model = open(folder, arguments, dataset)?;
             let name = name(folder, arguments);
             let frames = dataset.index().longest_window;
             Ok(TextToMotionGenerator::new(model, sampling, name, frames))
@@ -30,26 +29,30 @@ pub(super) fn open_all(
         .collect()
 }
 
-fn open(folder: &Path, dataset: &Dataset, device: DeviceChoice) -> Result<TextToMotion> {
-    let device = device.open()?;
-    let model = MdmFolder::read(folder, &CheckpointLimits::default(), &device)?;
+fn open(path: &Path, arguments: &EvaluateArguments, dataset: &Dataset) -> Result<TextToMotion> {
+    let (device, limits) = (arguments.device.device.open()?, CheckpointLimits::default());
+    let model = match path.is_dir() {
+        true => MdmFolder::read(path, &limits, &device)?,
+        // Published networks have the mean and deviation of their data set.
+        false => MdmFolder::published(path, dataset.statistics().clone(), &limits, &device)?,
+    };
     let skeleton = model.statistics.skeleton();
     if skeleton != dataset.skeleton() {
         bail!(
             "{}: makes motions of {skeleton:?}, the data set has those of {:?}",
-            folder.display(),
+            path.display(),
             dataset.skeleton()
         );
     }
-    let encoder = match model.description.text_encoder.as_str() {
-        "" => None,
-        "all-MiniLM-L6-v2" => text_encoder::named("minilm")?,
-        other => bail!(
-            "{}: reads captions by {other}, which is not embedded",
-            folder.display()
-        ),
-    };
-    TextToMotion::new(model, encoder).with_context(|| folder.display().to_string())
+    if model.network.config().planner.is_some() {
+        bail!(
+            "{}: goes on with motions that there are; the protocol is for networks that make whole ones",
+            path.display()
+        );
+    }
+    let encoder = text_encoder::wanted(&model.description.text_encoder, &arguments.text)
+        .with_context(|| path.display().to_string())?;
+    TextToMotion::new(model, encoder).with_context(|| path.display().to_string())
 }
 
 /// The folder's name, or as much of its path as tells it from the others.

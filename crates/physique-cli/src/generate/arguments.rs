@@ -60,9 +60,9 @@ pub(crate) struct ModelArguments {
     /// beside it [default: the embedded network].
     #[arg(long, value_name = "FOLDER|FILE")]
     pub(crate) model: Option<PathBuf>,
-    /// Text encoder: `minilm`, or a folder in the layout of Hugging Face [default: `minilm`, where
-    /// the network was trained with it].
-    #[arg(long, value_name = "NAME|FOLDER")]
+    /// Text encoder: `minilm`, a folder in the layout of Hugging Face, or OpenAI's ViT-B-32.pt with
+    /// bpe_simple_vocab_16e6.txt.gz beside it [default: `minilm`, where the network was trained with it].
+    #[arg(long, value_name = "NAME|FOLDER|FILE")]
     pub(crate) text: Option<String>,
     #[command(flatten)]
     pub(crate) device: DeviceArguments,
@@ -105,6 +105,9 @@ pub(crate) struct EditArguments {
     /// What is kept of it; may be given more than once.
     #[arg(long, value_enum, value_name = "PART", requires = "from")]
     pub(crate) keep: Vec<KeptPart>,
+    /// A motion whose last frames a planner (DiP) goes on from; they are not in the result.
+    #[arg(long, value_name = "FILE", conflicts_with = "from")]
+    pub(crate) after: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -126,4 +129,6 @@ Examples:
   physique generate \"a person waves\" --from walk.bvh --keep legs -o out.bvh
   physique generate \"a person walks\" -o out.bvh --model run/model
   physique generate \"a person kicks\" -o out.glb --model humanml/model000475000.pt \\
-    --mean Mean.npy --std Std.npy --text clip-vit-base-patch32/";
+    --mean Mean.npy --std Std.npy --text clip/ViT-B-32.pt
+  physique generate \"a person sits down\" -o out.glb --model dip/model.pt --guidance 7.5 \\
+    --mean Mean.npy --std Std.npy --text distilbert-base-uncased/ --after walk.bvh";

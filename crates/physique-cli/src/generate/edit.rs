@@ -1,4 +1,6 @@
-//! Motions that parts are kept of.
+//! Motions that parts are kept of, or that are gone on with.
+
+use std::path::Path;
 
 use anyhow::{Result, bail};
 use physique::body::Body;
@@ -14,19 +16,55 @@ use super::arguments::{EditArguments, KeptPart};
 use crate::arguments::ReadArguments;
 use crate::view::load_options;
 
-/// The motion of the flags in the network's terms, and what stays of it.
+/// What there is before a motion is generated.
+pub(super) enum Given {
+    /// Nothing.
+    Nothing,
+    /// Parts of a motion stay.
+    Known(KnownMotion),
+    /// A motion is gone on with.
+    After(MotionFeatures),
+}
+
+/// The motion of the flags in the network's terms, and what it is for.
 pub(super) fn read(
     arguments: &EditArguments,
     read: &ReadArguments,
     network: &TextToMotion,
     body: &Body,
-) -> Result<Option<KnownMotion>> {
-    let Some(path) = &arguments.from else {
-        return Ok(None);
-    };
+) -> Result<Given> {
+    let plans = network.folder().network.config().planner.is_some();
+    match (&arguments.from, &arguments.after) {
+        (None, None) if plans => {
+            bail!("the network goes on with a motion; say which: --after FILE")
+        }
+        (None, None) => Ok(Given::Nothing),
+        (_, Some(_)) if !plans => {
+            bail!("--after: the network makes whole motions; use --from and --keep")
+        }
+        (_, Some(path)) => Ok(Given::After(features(
+            "--after", path, read, network, body,
+        )?)),
+        (Some(_), None) if plans => bail!("--from: the network goes on with motions; use --after"),
+        (Some(path), None) => {
+            let features = features("--from", path, read, network, body)?;
+            let edit = kept(&arguments.keep, &features, features.skeleton());
+            Ok(Given::Known(KnownMotion { features, edit }))
+        }
+    }
+}
+
+/// A motion as the network has motions.
+fn features(
+    flag: &str,
+    path: &Path,
+    read: &ReadArguments,
+    network: &TextToMotion,
+    body: &Body,
+) -> Result<MotionFeatures> {
     let skeleton = network.folder().statistics.skeleton();
     if skeleton != FeatureSkeleton::HumanMl3d {
-        bail!("--from: expected a network of 22 joints, found one of KIT's 21");
+        bail!("{flag}: expected a network of 22 joints, found one of KIT's 21");
     }
     // Statistics of the flags are the network's, not the file's.
     let plain = ReadArguments {
@@ -37,9 +75,7 @@ pub(super) fn read(
     let loaded = load(path, body, &load_options(&plain)?)?;
     let motion = loaded.motion.resampled(network.frame_rate())?;
     let positions = JointPositions::from_motion(&motion, &BodyRest::from(body))?;
-    let features = extract_window(&canonicalise_window(&positions)?)?;
-    let edit = kept(&arguments.keep, &features, skeleton);
-    Ok(Some(KnownMotion { features, edit }))
+    Ok(extract_window(&canonicalise_window(&positions)?)?)
 }
 
 fn kept(parts: &[KeptPart], features: &MotionFeatures, skeleton: FeatureSkeleton) -> Edit {

@@ -66,9 +66,9 @@ pub(crate) struct MdmArguments {
     /// Without --plan, the network's shape and the steps of noise are that network's.
     #[arg(long, value_name = "FOLDER|FILE")]
     pub(crate) start_from: Option<PathBuf>,
-    /// Text encoder: `minilm`, or a folder in the layout of Hugging Face (CLIP, DistilBERT, BERT);
-    /// `none` for a network that is told nothing.
-    #[arg(long, value_name = "NAME|FOLDER", default_value = "minilm")]
+    /// Text encoder: `minilm`, a folder in the layout of Hugging Face (CLIP, DistilBERT, BERT), or
+    /// OpenAI's ViT-B-32.pt; `none` for a network that is told nothing.
+    #[arg(long, value_name = "NAME|FOLDER|FILE", default_value = "minilm")]
     pub(crate) text: String,
     /// Where it is trained: `cpu`; `wgpu` for a graphics processor by Vulkan, Metal or Direct3D, or
     /// `cuda`, in programs built with that feature. With a number for one of several, such as

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used)] // Every test file uses some of it.
 
+pub mod learning;
+
 use std::path::Path;
 use std::process::Output;
 

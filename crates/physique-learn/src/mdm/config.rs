@@ -192,6 +192,46 @@ impl MdmConfig {
         self.planner.map_or(0, |planner| planner.context)
     }
 
+    /// Whether a file of so many numbers can hold this network: memory is taken for a network before its
+    /// numbers are put in, and a stranger's file may claim any size.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] where it is far too small.
+    pub(super) fn check_size(&self, numbers: usize) -> Result<(), Error> {
+        const FREE: u64 = 1 << 22;
+        let count = |factors: &[usize]| {
+            let factors = factors.iter().map(|&factor| factor as u64);
+            factors.fold(1, u64::saturating_mul)
+        };
+        let width = self.width;
+        let squares = match self.architecture {
+            Architecture::Encoder => 4,
+            Architecture::Decoder | Architecture::DecoderWithTimeToken => 8,
+            Architecture::Gru | Architecture::GruOverBatch => 6,
+        };
+        let condition = match self.condition {
+            ConditionKind::Unconditioned => 0,
+            ConditionKind::Sentence { width } | ConditionKind::Tokens { width } => width,
+            ConditionKind::Action { count } => count,
+        };
+        let parts = [
+            count(&[2, self.columns, self.frames_per_token, width]),
+            count(&[condition, width]),
+            count(&[self.layers, squares, width, width]),
+            match self.architecture.is_recurrent() {
+                true => 0,
+                false => count(&[2, self.layers, self.feed_forward, width]),
+            },
+        ];
+        let claimed = parts.into_iter().fold(0, u64::saturating_add);
+        if claimed <= (numbers as u64).saturating_mul(2).max(FREE) {
+            return Ok(());
+        }
+        let expected = format!("one of about {numbers} numbers, as its file has");
+        let found = format!("one of {claimed} or more");
+        Err(Error::setting("network", expected, found))
+    }
+
     pub(super) const fn layer_sizes(&self) -> LayerSizes {
         LayerSizes {
             width: self.width,

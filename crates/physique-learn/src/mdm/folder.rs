@@ -10,7 +10,7 @@ use physique_motion::Limits;
 use physique_motion::features::FeatureStatistics;
 use serde::{Deserialize, Serialize};
 
-use super::{Mdm, MdmConfig, PUBLISHED_NAMES, parameters_of};
+use super::{ConditionKind, Mdm, MdmConfig, PUBLISHED_NAMES, parameters_of, read_published};
 use crate::Error;
 use crate::checkpoint::{CheckpointLimits, Precision, parse_safetensors, write_safetensors};
 use crate::text::KnownCaptions;
@@ -21,6 +21,10 @@ const CONFIG: &str = "config.json";
 const MEAN: &str = "mean.npy";
 const DEVIATION: &str = "std.npy";
 const CAPTIONS: &str = "captions.safetensors";
+/// The note of networks that guidance means nothing to.
+const UNGUIDED: &str = "unguided";
+/// The longest window of the published data sets.
+const PUBLISHED_FRAMES: usize = 196;
 
 /// A network with what it takes to use it.
 #[derive(Clone, Debug)]
@@ -119,6 +123,52 @@ impl MdmFolder {
         Self::parse(folder, file, limits, device)
     }
 
+    /// A published checkpoint, with `args.json` beside it, and the statistics of its data set
+    /// (`Mean.npy`, `Std.npy`), which the file does not hold.
+    ///
+    /// # Errors
+    /// As [`read_published`]; [`Error::Input`] for statistics of other features.
+    pub fn published(
+        path: &Path,
+        statistics: FeatureStatistics,
+        limits: &CheckpointLimits,
+        device: &Device,
+    ) -> Result<Self, Error> {
+        let (network, arguments) = read_published(path, limits, device)?;
+        let config = network.config();
+        check_statistics(&statistics, config)?;
+        let notes = (arguments.cond_mask_prob == 0.0).then(|| {
+            (
+                UNGUIDED.to_owned(),
+                "trained with its condition only".to_owned(),
+            )
+        });
+        let text_encoder = match config.condition {
+            ConditionKind::Sentence { .. } | ConditionKind::Tokens { .. } => {
+                arguments.text_encoder().to_owned()
+            }
+            _ => String::new(),
+        };
+        Ok(Self {
+            description: MdmDescription {
+                frame_rate: statistics.skeleton().frames_per_second(),
+                longest_frames: config.planner.is_none().then_some(PUBLISHED_FRAMES),
+                diffusion_steps: arguments.diffusion_steps,
+                signal: 1.0,
+                text_encoder,
+                notes: notes.into_iter().collect(),
+            },
+            network,
+            statistics,
+            captions: None,
+        })
+    }
+
+    /// Whether there is nothing to guide by: the network never learnt without its condition.
+    pub(super) fn is_unguided(&self) -> bool {
+        self.description.notes.contains_key(UNGUIDED)
+    }
+
     /// As [`MdmFolder::read`], of files that `file` gives by name; the folder only names them in
     /// errors.
     ///
@@ -149,6 +199,8 @@ impl MdmFolder {
         }
         let (path, bytes) = needed(NETWORK)?;
         let (parameters, _) = parse_safetensors(&bytes, &path, limits)?;
+        config.network.check()?;
+        config.network.check_size(parameters.count())?;
         let network = Mdm::new(&config.network, 0, device)?;
         let network = parameters.load(network, "MDM", PUBLISHED_NAMES)?;
         let (mean, deviation) = (needed(MEAN)?, needed(DEVIATION)?);
@@ -157,11 +209,7 @@ impl MdmFolder {
             (&deviation.0, deviation.1),
             &Limits::default(),
         )?;
-        if statistics.mean().len() != config.network.columns {
-            let expected = format!("{} columns, as the network has", config.network.columns);
-            let found = statistics.mean().len();
-            return Err(Error::input("Statistics", expected, found));
-        }
+        check_statistics(&statistics, &config.network)?;
         let captions = match file(CAPTIONS)? {
             Some(bytes) => Some(KnownCaptions::parse(
                 &bytes,
@@ -177,4 +225,14 @@ impl MdmFolder {
             description: config.description,
         })
     }
+}
+
+/// Whether statistics are of the columns that the network has.
+fn check_statistics(statistics: &FeatureStatistics, config: &MdmConfig) -> Result<(), Error> {
+    let found = statistics.mean().len();
+    if found == config.columns {
+        return Ok(());
+    }
+    let expected = format!("{} columns, as the network has", config.columns);
+    Err(Error::input("Statistics", expected, found))
 }

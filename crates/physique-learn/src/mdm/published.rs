@@ -37,7 +37,7 @@ const PASSED_OVER: [&str; 4] = [
 
 /// Settings of a published model that its numbers do not tell: `args.json`, with the defaults of
 /// the versions that did not write them yet.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(default)]
 pub struct PublishedArguments {
     /// `humanml`, `kit`, `humanact12` or `uestc`.
@@ -56,6 +56,19 @@ pub struct PublishedArguments {
     pub context_len: usize,
     /// Frames that a planner makes at a time.
     pub pred_len: usize,
+    /// Share of motions that were learnt without their condition; 0 leaves nothing to guide by.
+    pub cond_mask_prob: f64,
+}
+
+impl PublishedArguments {
+    /// What the text encoder is called by [`TextEncoder::name`](physique_text::TextEncoder::name).
+    pub fn text_encoder(&self) -> &str {
+        match self.text_encoder_type.as_str() {
+            "clip" => "CLIP",
+            "bert" => "DistilBERT",
+            other => other,
+        }
+    }
 }
 
 impl Default for PublishedArguments {
@@ -69,6 +82,7 @@ impl Default for PublishedArguments {
             diffusion_steps: 1000,
             context_len: 0,
             pred_len: 0,
+            cond_mask_prob: 0.1,
         }
     }
 }

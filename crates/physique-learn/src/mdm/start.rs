@@ -80,17 +80,12 @@ impl StartingNetwork {
     fn published(path: &Path, limits: &CheckpointLimits, device: &Device) -> Result<Self, Error> {
         let origin = Origin::of(path, path, limits.bytes)?;
         let (network, arguments) = read_published(path, limits, device)?;
-        let encoder = match arguments.text_encoder_type.as_str() {
-            "clip" => "CLIP",
-            "bert" => "DistilBERT",
-            other => other,
-        };
         Ok(Self {
             origin,
             network,
             diffusion_steps: arguments.diffusion_steps,
             signal: 1.0,
-            text_encoder: Some(encoder.to_owned()),
+            text_encoder: Some(arguments.text_encoder().to_owned()),
             statistics: None,
             captions: None,
         })
@@ -105,10 +100,13 @@ impl StartingNetwork {
             expected: "the plan of the run".into(),
             found: problem.to_string(),
         })?;
+        let parameters = read_network(path)?;
+        plan.network.check()?;
+        plan.network.check_size(parameters.count())?;
         let network = Mdm::new(&plan.network, 0, device)?;
         Ok(Self {
             origin: Origin::of(path, path, u64::MAX)?,
-            network: read_network(path)?.load(network, "MDM", &[])?,
+            network: parameters.load(network, "MDM", &[])?,
             diffusion_steps: plan.training.diffusion_steps,
             signal: plan.training.signal,
             text_encoder: None,

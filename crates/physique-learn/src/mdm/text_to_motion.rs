@@ -214,8 +214,8 @@ impl TextToMotion {
             Some(steps) => self.schedule.respaced(steps)?,
         };
         let guidance = match self.prompts {
-            Some(_) => sampling.guidance,
-            None => 1.0,
+            Some(_) if !self.folder.is_unguided() => sampling.guidance,
+            _ => 1.0,
         };
         let guides = sampling.guides.guides(&self.folder.statistics)?;
         let lengths: Vec<usize> = prompts.iter().map(|prompt| prompt.frames).collect();
