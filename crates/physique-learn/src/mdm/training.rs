@@ -66,7 +66,7 @@ impl<S: MotionSource> MdmTask<S> {
     ///
     /// # Errors
     /// [`Error::Setting`] for settings that cannot be; [`Error::Input`] when source and statistics
-    /// are of different features; those of [`SelfIntersectionLoss::embedded`].
+    /// are of different features; those of the embedded body's self-intersection.
     pub fn new(
         source: S,
         statistics: &FeatureStatistics,
