@@ -1,12 +1,11 @@
 //! Runs the benchmarks and prints one table, with goals and, where asked for, peers.
 
-use std::process::Command;
+mod peers;
 
 use anyhow::Result;
 use comfy_table::{CellAlignment, Table, presets};
 
-use crate::python::environment;
-use crate::shell::{cargo, output, root};
+use crate::shell::{cargo, output};
 
 /// What a benchmark must reach (milliseconds), and its stretch goal.
 struct Goal {
@@ -128,79 +127,11 @@ pub(crate) fn run(peers: bool) -> Result<()> {
         println!("== {example}\n{}", output(example, &mut command)?);
     }
     if peers {
-        skinning_peer(&rows)?;
-        sphere_loss_peer()?;
+        peers::skinning(&rows)?;
+        peers::sphere_loss()?;
+        peers::step_time()?;
     }
     Ok(())
-}
-
-/// Times dense linear blend skinning in PyTorch on the same machine and prints the ratio.
-fn skinning_peer(rows: &[Row]) -> Result<()> {
-    let folder = root().join("benches/peers");
-    let python = environment("peers", &folder.join("requirements.txt"))?;
-    let printed = output(
-        "PyTorch skinning",
-        Command::new(python).arg(folder.join("skinning.py")),
-    )?;
-    print!("{printed}");
-    let peer = printed.lines().find_map(|line| {
-        line.strip_prefix("milliseconds a batch: ")?
-            .parse::<f64>()
-            .ok()
-    });
-    let ours = rows
-        .iter()
-        .find(|row| row.name == "batch_of_64_frames_all_threads");
-    if let (Some(peer), Some(ours)) = (peer, ours) {
-        println!(
-            "skinning 64 frames: PyTorch {peer:.3} ms, Physique {:.3} ms, ratio {:.1} (goal 15)",
-            ours.milliseconds,
-            peer / ours.milliseconds
-        );
-    }
-    Ok(())
-}
-
-/// Times the sphere loss here and in PyTorch, one after the other, and prints the ratios of processor
-/// times.
-fn sphere_loss_peer() -> Result<()> {
-    const SIZES: [&str; 3] = ["64", "1024", "12544"];
-    let example = ["run", "--release", "-p", "physique-proxy"];
-    let mut ours = cargo(&example);
-    ours.args(["--example", "sphere_loss_speed", "--"])
-        .args(SIZES);
-    let ours = output("sphere loss", &mut ours)?;
-    print!("{ours}");
-    let folder = root().join("benches/peers");
-    let python = environment("peers", &folder.join("requirements.txt"))?;
-    let mut peer = Command::new(python);
-    let peer = output(
-        "PyTorch sphere loss",
-        peer.arg(folder.join("sphere_loss.py")).args(SIZES),
-    )?;
-    print!("{peer}");
-    let best = processor_times(&ours);
-    for (frames, peer) in processor_times(&peer) {
-        // The first line of a size is the best backend's.
-        if let Some((_, ours)) = best.iter().find(|(of, _)| *of == frames) {
-            println!(
-                "sphere loss, {frames} frames: ratio {:.0} (goals 3000 at 1024, 2000 at 12544)",
-                peer / ours
-            );
-        }
-    }
-    Ok(())
-}
-
-/// Frames and processor milliseconds of lines like `frames 64, AVX2: wall 1 ms, CPU 2 ms`.
-fn processor_times(printed: &str) -> Vec<(u32, f64)> {
-    let line = |line: &str| {
-        let frames = line.strip_prefix("frames ")?;
-        let digits = frames.find(|letter: char| !letter.is_ascii_digit())?;
-        let time = line.split_once("CPU ")?.1.split_once(" ms")?.0;
-        Some((frames[..digits].parse().ok()?, time.parse().ok()?))
-    };
-    printed.lines().filter_map(line).collect()
 }
 
 /// Names and medians in milliseconds of divan's tree: the third column of each line with times.
@@ -236,14 +167,7 @@ fn milliseconds(cell: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{medians, processor_times};
-
-    #[test]
-    fn reads_processor_times() {
-        let printed = "17 pairs\nframes 64, AVX-512: wall 0.02 ms, CPU 0.03 ms, 9 kB\n\
-                       frames 1024: wall 800.5 ms, CPU 1600.25 ms, process 9 MiB at most\n";
-        assert_eq!(processor_times(printed), [(64, 0.03), (1024, 1600.25)]);
-    }
+    use super::medians;
 
     #[test]
     fn reads_the_tree_that_divan_prints() {
