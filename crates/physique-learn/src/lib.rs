@@ -24,6 +24,7 @@ mod device;
 pub mod diffusion;
 pub mod error;
 pub mod evaluation;
+mod folders;
 mod fused;
 pub mod layers;
 pub mod mdm;

@@ -4,8 +4,6 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use burn::tensor::Device;
-use physique_files::npz::npy_f32;
-use physique_files::{FileError, write_file};
 use physique_motion::Limits;
 use physique_motion::features::FeatureStatistics;
 use serde::{Deserialize, Serialize};
@@ -13,13 +11,11 @@ use serde::{Deserialize, Serialize};
 use super::{ConditionKind, Mdm, MdmConfig, PUBLISHED_NAMES, parameters_of, read_published};
 use crate::Error;
 use crate::checkpoint::{CheckpointLimits, Precision, parse_safetensors, write_safetensors};
+use crate::folders::{self, CONFIG, DEVIATION, MEAN};
 use crate::text::KnownCaptions;
 
 const FORMAT: &str = "physique-mdm 1";
 pub(super) const NETWORK: &str = "model.safetensors";
-const CONFIG: &str = "config.json";
-const MEAN: &str = "mean.npy";
-const DEVIATION: &str = "std.npy";
 const CAPTIONS: &str = "captions.safetensors";
 /// The note of networks that guidance means nothing to.
 const UNGUIDED: &str = "unguided";
@@ -75,38 +71,20 @@ impl MdmFolder {
     /// # Errors
     /// [`Error::File`].
     pub fn write(&self, folder: &Path, precision: Precision) -> Result<(), Error> {
-        std::fs::create_dir_all(folder).map_err(|problem| FileError::Io {
-            path: folder.into(),
-            problem,
-        })?;
+        folders::make(folder)?;
         let parameters = parameters_of(&self.network, "the network")?;
         let words = BTreeMap::from([("format".to_owned(), FORMAT.to_owned())]);
         write_safetensors(&folder.join(NETWORK), &parameters, words, precision)?;
         if let Some(captions) = &self.captions {
             captions.write(&folder.join(CAPTIONS))?;
         }
-        for (name, values) in [
-            (MEAN, self.statistics.mean()),
-            (DEVIATION, self.statistics.deviation()),
-        ] {
-            let path = folder.join(name);
-            let file = npy_f32(&[values.len()], values).map_err(|problem| Error::Content {
-                file: path.clone(),
-                problem: Box::new(problem.into()),
-            })?;
-            write_file(&path, &file)?;
-        }
+        folders::write_statistics(folder, &self.statistics)?;
         let config = Config {
             format: FORMAT.into(),
             network: self.network.config().clone(),
             description: self.description.clone(),
         };
-        let path = folder.join(CONFIG);
-        let text = serde_json::to_vec_pretty(&config).map_err(|problem| FileError::Io {
-            path: path.clone(),
-            problem: problem.into(),
-        })?;
-        Ok(write_file(&path, &text)?)
+        folders::write_config(folder, &config)
     }
 
     /// Reads what [`MdmFolder::write`] wrote.

@@ -5,8 +5,6 @@ use std::path::Path;
 
 use burn::tensor::Device;
 use physique_data::Caption;
-use physique_files::npz::npy_f32;
-use physique_files::{FileError, write_file};
 use physique_motion::Limits;
 use physique_motion::features::FeatureStatistics;
 use physique_text::{MiniLm, TextEncoder as _};
@@ -17,15 +15,13 @@ use crate::Error;
 use crate::checkpoint::{CheckpointLimits, Precision, read_safetensors, write_safetensors};
 use crate::evaluation::motion_side::points;
 use crate::evaluation::{CaptionReading, PairEvaluator, Points};
+use crate::folders::{self, CONFIG, DEVIATION, MEAN};
 use crate::layers::Dropout;
 use crate::tensors::tensor;
 use crate::text::{CaptionCentre, PromptEncoder};
 
 const FORMAT: &str = "physique-evaluator 1";
 const NETWORKS: &str = "model.safetensors";
-const CONFIG: &str = "config.json";
-const MEAN: &str = "mean.npy";
-const DEVIATION: &str = "std.npy";
 
 /// Networks, what motions are normalised by, and what reads captions.
 #[derive(Debug)]
@@ -100,10 +96,7 @@ impl SentenceEvaluator {
     /// # Errors
     /// [`Error::File`].
     pub fn write(&self, folder: &Path) -> Result<(), Error> {
-        std::fs::create_dir_all(folder).map_err(|problem| FileError::Io {
-            path: folder.into(),
-            problem,
-        })?;
+        folders::make(folder)?;
         let words = BTreeMap::from([("format".to_owned(), FORMAT.to_owned())]);
         let parameters = self.networks.parameters()?;
         write_safetensors(
@@ -112,17 +105,7 @@ impl SentenceEvaluator {
             words,
             Precision::Single,
         )?;
-        for (name, values) in [
-            (MEAN, self.statistics.mean()),
-            (DEVIATION, self.statistics.deviation()),
-        ] {
-            let path = folder.join(name);
-            let file = npy_f32(&[values.len()], values).map_err(|problem| Error::Content {
-                file: path.clone(),
-                problem: Box::new(problem.into()),
-            })?;
-            write_file(&path, &file)?;
-        }
+        folders::write_statistics(folder, &self.statistics)?;
         let centre = self.prompts.centre();
         let config = Config {
             format: FORMAT.into(),
@@ -134,12 +117,7 @@ impl SentenceEvaluator {
             },
             notes: self.notes.clone(),
         };
-        let path = folder.join(CONFIG);
-        let text = serde_json::to_vec_pretty(&config).map_err(|problem| FileError::Io {
-            path: path.clone(),
-            problem: problem.into(),
-        })?;
-        Ok(write_file(&path, &text)?)
+        folders::write_config(folder, &config)
     }
 
     /// Reads what [`SentenceEvaluator::write`] wrote.
