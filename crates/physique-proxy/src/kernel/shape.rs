@@ -52,7 +52,7 @@ pub(super) fn add_skin<S: Simd>(
     scale: S::Lanes,
     sums: &mut ShapeSums,
 ) {
-    for sphere in 0..work.by_reaches.len() {
+    for sphere in 0..plan.sphere_count() {
         sums.radii[sphere] += total(work.by_reaches[sphere] * scale);
     }
     add_centres(simd, &plan.blends.one, work, scale, sums);

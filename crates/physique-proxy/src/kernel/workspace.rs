@@ -45,8 +45,9 @@ impl<L: Copy> Workspace<L> {
             world_from_joint: [[zero; 12]; Joint::COUNT],
             by_world: [[zero; 12]; Joint::COUNT],
             spheres: vec![[zero; 4]; plan.sphere_count() + QUAD - 1],
-            by_spheres: vec![[zero; 3]; plan.sphere_count()],
-            by_reaches: vec![zero; plan.sphere_count()],
+            // Padded likewise: what is no number may seem to touch anything.
+            by_spheres: vec![[zero; 3]; plan.sphere_count() + QUAD - 1],
+            by_reaches: vec![zero; plan.sphere_count() + QUAD - 1],
             quad_bounds: vec![[[zero; 3]; 2]; plan.quads.len()],
             group_bounds: vec![[[zero; 3]; 2]; plan.groups.len()],
             // One more each: a survivor is written before it is counted.
