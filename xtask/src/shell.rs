@@ -6,9 +6,12 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
 
-/// The workspace's root folder.
+/// The workspace's root folder: that of the checkout which cargo runs this from, which need not be the one
+/// that it was compiled in where a target folder is shared.
 pub(crate) fn root() -> PathBuf {
-    let xtask = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let xtask =
+        std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_else(|| env!("CARGO_MANIFEST_DIR").into());
+    let xtask = Path::new(&xtask);
     xtask.parent().unwrap_or(xtask).to_owned()
 }
 
