@@ -91,6 +91,19 @@ pub enum Error {
         /// Rows asked for.
         length: usize,
     },
+    /// A favoured value that cannot be.
+    #[error(
+        "A plan favours {value:?} by a factor of {factor}: expected a factor above 0 and one of the values that \
+         training clips have ({known})."
+    )]
+    Favoured {
+        /// Value of the label that draws are balanced by.
+        value: String,
+        /// How many times as often.
+        factor: f64,
+        /// Values that training clips have.
+        known: String,
+    },
     /// Nothing to draw from.
     #[error(
         "No clip of the {split} split is {frames} rows long: there is nothing to draw windows from."

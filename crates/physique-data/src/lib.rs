@@ -41,7 +41,7 @@ pub use join::{SET_LABEL, join};
 pub use limits::DataLimits;
 pub use recipe::Recipe;
 pub use report::{BuildReport, LeftOut, Reason};
-pub use sampler::{Drawn, Order, Sampler, SamplerOptions};
+pub use sampler::{Balance, Drawn, Order, Sampler, SamplerOptions};
 pub use source::{PublishedSet, Source};
 pub use split::Split;
 pub use window::Window;

@@ -6,18 +6,37 @@ use crate::random::Random;
 use crate::{Dataset, Error, Split, Window};
 
 /// In which order clips are drawn.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Order {
     /// Every clip once in each pass, in another order each time; what is left over of a pass when a
     /// batch is no longer full is dropped, as the published trainers do.
     Passes,
-    /// A value of this label in proportion to the square root of its seconds, then any of its clips:
+    /// A value of a label in proportion to the square root of its seconds, then any of its clips:
     /// rare contents are seen more often than their share, but not as often as common ones.
-    BalancedBy(String),
+    BalancedBy(Balance),
+}
+
+/// The label that draws are balanced by.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Balance {
+    /// Name of the label.
+    pub label: String,
+    /// By value of the label: how many times as often as balance alone would have it; 1 where
+    /// nothing is said.
+    pub favoured: BTreeMap<String, f64>,
+}
+
+impl From<&str> for Balance {
+    fn from(label: &str) -> Self {
+        Self {
+            label: label.to_owned(),
+            favoured: BTreeMap::new(),
+        }
+    }
 }
 
 /// What to draw.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SamplerOptions {
     /// From which split.
     pub split: Split,
@@ -71,7 +90,8 @@ impl Sampler {
     /// Prepares to draw from a data set.
     ///
     /// # Errors
-    /// [`Error::NothingToDraw`] when the split has no clip of `unit` rows.
+    /// [`Error::NothingToDraw`] when the split has no clip of `unit` rows; [`Error::Favoured`] for a
+    /// favoured value that no clip has, or a factor that is not above 0 and finite.
     pub fn new(dataset: &Dataset, options: SamplerOptions) -> Result<Self, Error> {
         let index = dataset.index();
         let unit = options.unit.max(1);
@@ -90,23 +110,37 @@ impl Sampler {
         for (member, &(clip, _)) in clips.iter().enumerate() {
             let value = match &options.order {
                 Order::Passes => "",
-                Order::BalancedBy(label) => index.clips[clip]
+                Order::BalancedBy(balance) => index.clips[clip]
                     .labels
-                    .get(label)
+                    .get(&balance.label)
                     .map_or("", String::as_str),
             };
             by_value.entry(value).or_default().push(member);
         }
-        let weight = |members: &Vec<usize>| {
+        let unfavoured = BTreeMap::new();
+        let favoured = match &options.order {
+            Order::Passes => &unfavoured,
+            Order::BalancedBy(balance) => &balance.favoured,
+        };
+        for (value, &factor) in favoured {
+            if !(by_value.contains_key(value.as_str()) && factor > 0.0 && factor.is_finite()) {
+                return Err(Error::Favoured {
+                    value: value.clone(),
+                    factor,
+                    known: by_value.keys().copied().collect::<Vec<_>>().join(", "),
+                });
+            }
+        }
+        let weight = |(value, members): (&&str, &Vec<usize>)| {
             let rows: usize = members.iter().map(|&member| clips[member].1).sum();
-            (rows as f64).sqrt()
+            (rows as f64).sqrt() * favoured.get(*value).copied().unwrap_or(1.0)
         };
         let captions = index.caption_sets.iter().map(|set| {
             let weights = set.weights.iter().copied().map(f64::from);
             (set.training.clone(), running_sums(weights))
         });
         Ok(Self {
-            group_weights: running_sums(by_value.values().map(weight)),
+            group_weights: running_sums(by_value.iter().map(weight)),
             groups: by_value.into_values().collect(),
             captions: captions.collect(),
             caption_set: index.clips.iter().map(|clip| clip.captions).collect(),

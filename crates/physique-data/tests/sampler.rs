@@ -4,7 +4,7 @@ mod support;
 
 use std::collections::HashMap;
 
-use physique_data::{Order, Sampler, SamplerOptions, Split};
+use physique_data::{Balance, Order, Sampler, SamplerOptions, Split};
 use support::{RECIPE, built, folder};
 
 fn options(order: Order) -> SamplerOptions {
@@ -79,6 +79,51 @@ fn windows_are_within_clips_and_captions_belong_to_them() {
         assert!(
             (found - expected).abs() < 142.0,
             "{content}: {found}, expected {expected}"
+        );
+    }
+}
+
+#[test]
+fn favoured_values_are_drawn_more_often() {
+    let folder = folder();
+    let (dataset, _) = built(RECIPE, folder.path());
+    let count = |favoured: &[(&str, f64)], content: &str| {
+        let balance = Balance {
+            favoured: favoured.iter().map(|&(v, f)| (v.to_owned(), f)).collect(),
+            ..Balance::from("content")
+        };
+        let sampler = Sampler::new(&dataset, options(Order::BalancedBy(balance))).unwrap();
+        let drawn = (0..400).flat_map(|step| sampler.draw(10, step, 8));
+        let clips = drawn.map(|drawn| &dataset.index().clips[drawn.window.clip]);
+        clips
+            .filter(|clip| clip.labels["content"] == content)
+            .count() as f64
+            / 3200.0
+    };
+    let even = count(&[], "walk");
+    let favoured = count(&[("walk", 3.0)], "walk");
+    let expected = 3.0 * even / (1.0 + 2.0 * even);
+    // Five standard deviations of each of the two shares come to less than 0.09.
+    assert!(
+        favoured > even + 0.1 && (favoured - expected).abs() < 0.09,
+        "{even} {favoured}"
+    );
+
+    for (value, factor) in [
+        ("wlak", 2.0),
+        ("walk", 0.0),
+        ("walk", f64::NAN),
+        ("walk", f64::INFINITY),
+    ] {
+        let balance = Balance {
+            favoured: [(value.to_owned(), factor)].into(),
+            ..Balance::from("content")
+        };
+        let error = Sampler::new(&dataset, options(Order::BalancedBy(balance))).unwrap_err();
+        let message = error.to_string();
+        assert!(
+            message.contains(value) && message.contains("walk"),
+            "{message}"
         );
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use burn::tensor::{Device, Tensor, TensorData};
 use physique_learn::Error;
 use physique_learn::mdm::{ConditionKind, Mdm, MdmConfig, MdmTask, MdmTraining};
-use physique_learn::motion_loss::{MotionLoss, SelfIntersectionLoss, losses};
+use physique_learn::motion_loss::{MotionLoss, SelfIntersectionLoss, SpherePairs, losses};
 use physique_learn::random::Random;
 use physique_learn::trainer::{
     BatchCondition, MotionBatch, MotionSource, Task, Trainer, TrainerConfig,
@@ -94,6 +94,39 @@ fn value_and_gradient_are_those_of_features() {
         }
         assert!(behind.iter().all(|by| *by == 0.0));
     }
+}
+
+/// What the paper's table 2 compares: other numbers of spheres, and pairs that always touch.
+#[test]
+fn ablations_compare_other_spheres() {
+    let (batch, statistics) = batch(0.0);
+    let losses = |spheres, pairs| {
+        let loss = SelfIntersectionLoss::embedded_with(&statistics, spheres, pairs);
+        let found = loss.expect("embedded").evaluate(&batch, FRAMES, &LENGTHS);
+        found.expect("finite").losses
+    };
+    let default = SelfIntersectionLoss::embedded(&statistics).expect("embedded");
+    let default = default.evaluate(&batch, FRAMES, &LENGTHS).expect("finite");
+    let reduced = losses(192, SpherePairs::Reduced);
+    assert_eq!(reduced, default.losses);
+    for spheres in [128, 192, 256] {
+        let of_size = losses(spheres, SpherePairs::Reduced);
+        let all = losses(spheres, SpherePairs::All);
+        for ((of_size, all), reduced) in of_size.iter().zip(&all).zip(&reduced) {
+            assert!(
+                *of_size > 0.0 && all > of_size,
+                "{spheres}: {of_size} {all}"
+            );
+            // All sizes stand for one body.
+            assert!(
+                (0.25..4.0).contains(&(of_size / reduced)),
+                "{spheres}: {of_size} {reduced}"
+            );
+            assert!(spheres == 192 || of_size != reduced, "{spheres}: {of_size}");
+        }
+    }
+    let error = SelfIntersectionLoss::embedded_with(&statistics, 191, SpherePairs::Reduced);
+    assert!(error.unwrap_err().to_string().contains("191"));
 }
 
 #[test]

@@ -9,7 +9,7 @@ use physique_motion::features::{
 use physique_motion::mapping::BodyRest;
 
 use crate::kernel::Swings;
-use crate::{Error, SelfIntersection, open_proxy};
+use crate::{Error, Pairs, SelfIntersection, SphereProxy, open_proxy};
 
 /// Positions of one frame's 22 joints, in [`Joint`]'s order, of any unit of length.
 pub type JointFrame = [[f32; 3]; Joint::COUNT];
@@ -95,9 +95,21 @@ impl FeatureLoss {
     /// # Errors
     /// None in practice: the tests use it.
     pub fn of_open_body(rule: GradientRule) -> Result<Self, Error> {
-        let body = Body::new(open_body()?, &[])?;
         let proxy = open_proxy()?;
-        let loss = SelfIntersection::new(&proxy.of_body(&body)?, &proxy.pairs()?)?;
+        Self::of_open_body_with(&proxy, &proxy.pairs()?, rule)
+    }
+
+    /// The same with another proxy of the open body, or other pairs: for the paper's ablations.
+    ///
+    /// # Errors
+    /// [`Error`] when proxy and pairs do not fit the body or each other.
+    pub fn of_open_body_with(
+        proxy: &SphereProxy,
+        pairs: &Pairs,
+        rule: GradientRule,
+    ) -> Result<Self, Error> {
+        let body = Body::new(open_body()?, &[])?;
+        let loss = SelfIntersection::new(&proxy.of_body(&body)?, pairs)?;
         let layer = RotationLayer::for_body(&BodyRest::from(&body));
         Ok(Self::new(loss, &layer, rule))
     }

@@ -3,14 +3,15 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use physique::body::{Body, Sex, open_body};
-use physique_data::{DataLimits, Dataset, Order, SamplerOptions, Split};
+use physique_data::{Balance, DataLimits, Dataset, Order, SamplerOptions, Split};
 use physique_files::write_file;
 use physique_learn::checkpoint::Precision;
 use physique_learn::data::CaptionedMotions;
 use physique_learn::mdm::{
     ConditionKind, Mdm, MdmDescription, MdmFolder, MdmPlan, MdmTask, StartingNetwork, TextToMotion,
+    WindowPlan,
 };
 use physique_learn::text::{CaptionCentre, Embeddings, KnownCaptions, PromptEncoder};
 use physique_learn::trainer::{StepReport, Trainer};
@@ -127,6 +128,22 @@ fn spread<'a>(items: &[&'a str], most: usize) -> Vec<&'a str> {
         .collect()
 }
 
+fn order(windows: &WindowPlan) -> Result<Order> {
+    match &windows.balance_by {
+        Some(label) => Ok(Order::BalancedBy(Balance {
+            label: label.clone(),
+            favoured: windows.favour.clone(),
+        })),
+        None => {
+            ensure!(
+                windows.favour.is_empty(),
+                "The plan has windows.favour without windows.balance_by: expected the label whose values it favours."
+            );
+            Ok(Order::Passes)
+        }
+    }
+}
+
 /// Devices that differentiate.
 fn open_devices(choices: &[DeviceChoice]) -> Result<Vec<Device>> {
     let devices = choices.iter().map(|choice| Ok(choice.open()?.autodiff()));
@@ -145,10 +162,7 @@ fn train(
     let longest = plan.windows.longest_seconds;
     let longest = longest.map(|seconds| (seconds * frame_rate).round().max(1.0) as usize);
     let options = SamplerOptions {
-        order: match &plan.windows.balance_by {
-            Some(label) => Order::BalancedBy(label.clone()),
-            None => Order::Passes,
-        },
+        order: order(&plan.windows)?,
         longest,
         ..SamplerOptions::default()
     };

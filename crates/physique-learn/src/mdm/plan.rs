@@ -1,5 +1,7 @@
 //! Everything about a run of training but its data.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use super::{MdmConfig, MdmTraining, Origin};
@@ -32,6 +34,9 @@ pub struct WindowPlan {
     /// Label whose values are drawn in proportion to the square root of their seconds; without it,
     /// every clip is seen once in each pass.
     pub balance_by: Option<String>,
+    /// By value of that label: how many times as often it is drawn as balance alone would have it.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub favour: BTreeMap<String, f64>,
     /// Longest window in seconds, where that of the data is too long.
     pub longest_seconds: Option<f64>,
 }
@@ -130,6 +135,7 @@ impl MdmPlan {
             windows: WindowPlan {
                 balance_by: Some("content".into()),
                 longest_seconds: Some(6.0),
+                ..WindowPlan::default()
             },
             started_from: None,
         }

@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::Error;
 use crate::diffusion::Schedule;
-use crate::motion_loss::{GroundLoss, SelfIntersectionLoss, SlidingLoss, WeightedLoss};
+use crate::motion_loss::{
+    GroundLoss, SelfIntersectionLoss, SlidingLoss, SpherePairs, WeightedLoss,
+};
 
 /// How a motion diffusion model is trained. The default is as published.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,6 +34,10 @@ pub struct MdmTraining {
     /// Weight of the self-intersection of the predicted motions: lambda_SI of SIA-MDM, 0.01 for
     /// HumanML3D and 0.0001 for KIT; see [`SelfIntersectionLoss`].
     pub self_intersection_weight: f64,
+    /// Spheres that self-intersection is measured by: 128, 192 or 256.
+    pub self_intersection_spheres: usize,
+    /// Which pairs of them are compared.
+    pub self_intersection_pairs: SpherePairs,
     /// Weight of feet in the ground or above it, see [`GroundLoss`].
     pub ground_weight: f64,
     /// Weight of sliding feet, see [`SlidingLoss`].
@@ -50,6 +56,8 @@ impl Default for MdmTraining {
             joint_weight: 0.0,
             foot_contact_weight: 0.0,
             self_intersection_weight: 0.0,
+            self_intersection_spheres: 192,
+            self_intersection_pairs: SpherePairs::Reduced,
             ground_weight: 0.0,
             sliding_weight: 0.0,
         }
@@ -137,7 +145,11 @@ impl MdmTraining {
     ) -> Result<Vec<WeightedLoss>, Error> {
         let mut losses = Vec::new();
         if self.self_intersection_weight > 0.0 {
-            let loss = SelfIntersectionLoss::embedded(statistics)?;
+            let loss = SelfIntersectionLoss::embedded_with(
+                statistics,
+                self.self_intersection_spheres,
+                self.self_intersection_pairs,
+            )?;
             let weight = self.self_intersection_weight;
             losses.push(WeightedLoss::new("self_intersection", weight, loss)?);
         }

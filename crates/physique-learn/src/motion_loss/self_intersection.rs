@@ -1,7 +1,8 @@
 //! The self-intersection loss of generated motions.
 
 use physique_motion::features::{FeatureStatistics, GradientRule};
-use physique_proxy::{FeatureBatch, FeatureLoss};
+use physique_proxy::{FeatureBatch, FeatureLoss, Pairs, open_proxy_with};
+use serde::{Deserialize, Serialize};
 
 use super::{LossAndGradient, MotionLoss, check};
 use crate::Error;
@@ -19,6 +20,17 @@ pub struct SelfIntersectionLoss {
     statistics: FeatureStatistics,
     #[cfg(feature = "cubecl")]
     on_gpu: super::GpuSelfIntersection,
+}
+
+/// Which pairs of spheres the loss compares.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SpherePairs {
+    /// Those that do not touch in most poses of real motion.
+    #[default]
+    Reduced,
+    /// All, those too that always touch: neighbours in a limb.
+    All,
 }
 
 impl SelfIntersectionLoss {
@@ -39,6 +51,26 @@ impl SelfIntersectionLoss {
     /// As [`FeatureLoss::of_open_body`].
     pub fn embedded(statistics: &FeatureStatistics) -> Result<Self, Error> {
         let loss = FeatureLoss::of_open_body(GradientRule::ParentsConstant)?;
+        Ok(Self::new(loss, statistics.clone()))
+    }
+
+    /// The same by one of the other embedded proxies, or with all pairs of spheres: the ablations
+    /// of the paper's table 2.
+    ///
+    /// # Errors
+    /// For a number of spheres that no embedded proxy has.
+    pub fn embedded_with(
+        statistics: &FeatureStatistics,
+        spheres: usize,
+        pairs: SpherePairs,
+    ) -> Result<Self, Error> {
+        let proxy = open_proxy_with(spheres)?;
+        let pairs = match pairs {
+            SpherePairs::Reduced => proxy.pairs()?,
+            SpherePairs::All => Pairs::all(spheres)?,
+        };
+        let rule = GradientRule::ParentsConstant;
+        let loss = FeatureLoss::of_open_body_with(&proxy, &pairs, rule)?;
         Ok(Self::new(loss, statistics.clone()))
     }
 

@@ -4,6 +4,7 @@ mod explain;
 mod features;
 mod fused;
 mod golden;
+mod hostile;
 mod invariance;
 mod real;
 mod reference;
