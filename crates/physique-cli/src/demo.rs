@@ -65,15 +65,24 @@ pub(crate) fn run(arguments: &DemoArguments) -> Result<Exit> {
 fn generated(scorer: &Scorer, arguments: &DemoArguments) -> Result<MotionReport> {
     use physique_learn::mdm::{Prompt, Sampling};
 
+    use crate::generate::SMOOTH_HZ;
+    use crate::generate::parts::Parts;
+
     const NAME: &str = "generated";
-    const TEXT: &str = "a person walks";
+    const TEXT: &str = "a tired person walks and waves with the left hand";
     let network = crate::generate::model::embedded(physique_learn::DeviceChoice::Cpu)?;
+    let parts = Parts::divided(TEXT);
     let prompt = Prompt {
-        text: TEXT,
+        text: &parts.text,
+        upper_body: parts.upper_body.as_deref(),
         frames: 80,
         seed: 0,
     };
-    let made = network.generate(&[prompt], Sampling::default(), None, |_| ())?;
+    let sampling = Sampling {
+        smooth_hz: Some(SMOOTH_HZ),
+        ..Sampling::default()
+    };
+    let made = network.generate(&[prompt], sampling, None, |_| ())?;
     let features = made.first().context("no motion was generated")?;
     let loaded = crate::generate::motion::on_body(features, scorer.body())?;
     draw(scorer, NAME, TEXT, &loaded.motion, arguments)?;

@@ -5,6 +5,7 @@ mod edit;
 pub(crate) mod model;
 pub(crate) mod motion;
 mod output;
+pub(crate) mod parts;
 
 use std::time::Duration;
 
@@ -35,14 +36,16 @@ pub(crate) fn run(arguments: &GenerateArguments) -> Result<Exit> {
         Given::Known(known) => known.features.frame_count(),
         Given::Nothing | Given::After(_) => frames(arguments.seconds, &network)?,
     };
-    for text in &texts {
-        tell_of_unusual(text, &network);
-    }
+    let parts: Vec<_> = texts
+        .iter()
+        .map(|text| parts::of(text, arguments, &network))
+        .collect();
     let mut prompts = Vec::new();
-    for text in &texts {
+    for parts in &parts {
         for _ in 0..arguments.count {
             prompts.push(Prompt {
-                text,
+                text: &parts.text,
+                upper_body: parts.upper_body.as_deref(),
                 frames,
                 seed: arguments.seed + prompts.len() as u64,
             });
@@ -52,11 +55,12 @@ pub(crate) fn run(arguments: &GenerateArguments) -> Result<Exit> {
 
     let mut reports = Vec::new();
     for (number, (features, prompt)) in motions.iter().zip(&prompts).enumerate() {
+        let text = &texts[number / usize::from(arguments.count)];
         let loaded = motion::on_body(features, scorer.body())?;
-        let path = outputs.path(number, prompt.text);
-        let mut notes = outputs.write(&path, &loaded, prompt, scorer.body())?;
+        let path = outputs.path(number, text);
+        let mut notes = outputs.write(&path, &loaded, (text, prompt.seed), scorer.body())?;
         if arguments.png {
-            outputs.draw(&path, &loaded, prompt.text, &scorer)?;
+            outputs.draw(&path, &loaded, text, &scorer)?;
         }
         notes.splice(0..0, loaded.notes);
         let name = path
@@ -65,7 +69,7 @@ pub(crate) fn run(arguments: &GenerateArguments) -> Result<Exit> {
         reports.push(MotionReport {
             file: path.display().to_string(),
             name: name.unwrap_or_default(),
-            text: Some(prompt.text.to_owned()),
+            text: Some(text.clone()),
             score: Some(scorer.score(&loaded.motion)?),
             unscorable: None,
             mapping: None,
@@ -116,16 +120,6 @@ fn frames(seconds: f64, network: &TextToMotion) -> Result<usize> {
     Ok(frames)
 }
 
-/// Says where a text is about something that the network was not trained with.
-fn tell_of_unusual(text: &str, network: &TextToMotion) {
-    if let Some(nearest) = network.nearest(text).filter(|nearest| nearest.unusual) {
-        eprintln!(
-            "note: {text:?} is unlike what the network was trained with (distance {:.2}); nearest is {:?}",
-            nearest.distance, nearest.text
-        );
-    }
-}
-
 fn sample(
     network: &TextToMotion,
     prompts: &[Prompt<'_>],
@@ -141,7 +135,12 @@ fn sample(
     let planner = network.folder().network.config().planner;
     let pieces = planner.map_or(1, |of| frames.unwrap_or(0).div_ceil(of.prediction));
     let steps = sampling.steps.unwrap_or(default) * pieces;
-    let bar = ProgressBar::new((prompts.len().div_ceil(AT_ONCE) * steps) as u64);
+    let divided = |batch: &[Prompt<'_>]| batch.iter().any(|prompt| prompt.upper_body.is_some());
+    let passes: usize = prompts
+        .chunks(AT_ONCE)
+        .map(|batch| 1 + usize::from(divided(batch)))
+        .sum();
+    let bar = ProgressBar::new((passes * steps) as u64);
     // A constant template; were it wrong, indicatif's own style would show.
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} steps (left: {eta})") {
         bar.set_style(style);
@@ -162,7 +161,7 @@ fn sample(
 }
 
 /// What biomechanics filters joints with: no one swings a limb faster.
-const SMOOTH_HZ: f64 = 6.0;
+pub(crate) const SMOOTH_HZ: f64 = 6.0;
 
 /// How motions are sampled, by the flags.
 pub(crate) fn sampling(arguments: &SamplingArguments) -> Sampling {

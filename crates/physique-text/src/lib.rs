@@ -10,13 +10,14 @@
 //!
 //! [`open`] tells a folder of the user's by its `config.json`, and reads CLIP's own TorchScript file. [`CaptionIndex`] finds the training
 //! caption that is nearest to a prompt, so that a generator can say when it is asked for what it does
-//! not know.
+//! not know; [`BodyPartTexts`] splits a caption that tells two things at once.
 //!
 //! All of it is plain `f32` arithmetic on the processor: no learning framework, no start-up cost but
 //! unpacking the weights. Results do not depend on the number of threads, nor on what other captions
 //! are encoded along.
 
 mod bert;
+mod body_parts;
 mod clip;
 mod config;
 mod distil_bert;
@@ -30,6 +31,7 @@ pub mod tokens;
 mod transformer;
 mod weights;
 
+pub use body_parts::BodyPartTexts;
 pub use clip::{Clip, ClipContext};
 pub use distil_bert::DistilBert;
 pub use embeddings::TextEmbeddings;

@@ -16,6 +16,13 @@ pub(crate) struct GenerateArguments {
     /// What motions are to show, one text each.
     #[arg(value_name = "TEXT", required_unless_present = "prompts")]
     pub(crate) texts: Vec<String>,
+    /// What trunk and arms do, while legs do as the texts say [default: texts that tell two things at
+    /// once, such as "walks and waves", are divided].
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) upper_body: Option<String>,
+    /// Take texts as they stand: divide none.
+    #[arg(long, conflicts_with = "upper_body")]
+    pub(crate) undivided: bool,
     /// File of more texts, one a line.
     #[arg(long, value_name = "FILE")]
     pub(crate) prompts: Option<PathBuf>,
@@ -126,6 +133,8 @@ const EXAMPLES: &str = "\
 Examples:
   physique generate \"a tired person walks\" -o out.glb
   physique generate \"a person runs\" \"a person waves\" -n 5 -o motions/ --png
+  physique generate \"a person walks and waves with the left hand\" -o out.glb
+  physique generate \"a person runs\" --upper-body \"a person raises both hands\" -o out.glb
   physique generate \"a person waves\" --from walk.bvh --keep legs -o out.bvh
   physique generate \"a person walks\" -o out.bvh --model run/model
   physique generate \"a person kicks\" -o out.glb --model humanml/model000475000.pt \\

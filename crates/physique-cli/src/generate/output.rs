@@ -7,7 +7,6 @@ use physique::body::Body;
 use physique::export::{ExportOptions, Provenance, export};
 use physique::load::Loaded;
 use physique::{ExportFormat, Scorer};
-use physique_learn::mdm::Prompt;
 use physique_view::MotionSheet;
 
 use super::arguments::GenerateArguments;
@@ -63,13 +62,13 @@ impl Outputs {
         &self,
         path: &Path,
         loaded: &Loaded,
-        prompt: &Prompt<'_>,
+        (text, seed): (&str, u64),
         body: &Body,
     ) -> Result<Vec<String>> {
         let provenance = Provenance {
-            name: prompt.text.to_owned(),
+            name: text.to_owned(),
             source: Some("physique generate".into()),
-            notes: vec![format!("Seed {}.", prompt.seed)],
+            notes: vec![format!("Seed {seed}.")],
         };
         let options = ExportOptions::new(self.format);
         Ok(export(path, &loaded.motion, body, provenance, &options)?)

@@ -22,6 +22,7 @@ pub(super) fn draw(
         .iter()
         .map(|text| Prompt {
             text,
+            upper_body: None,
             frames,
             seed: 0,
         })

@@ -62,6 +62,7 @@ impl MotionGenerator for TextToMotionGenerator {
             .iter()
             .map(|prompt| mdm::Prompt {
                 text: &prompt.caption.text,
+                upper_body: None,
                 frames: prompt.frames,
                 seed: prompt.seed,
             })

@@ -1,14 +1,14 @@
 //! A network with all that is needed to ask it for motions in words.
 
-use burn::tensor::{Device, Tensor};
+mod given;
+
 use physique_motion::FrameRate;
-use physique_motion::features::{FeatureLayout, MotionFeatures};
+use physique_motion::features::MotionFeatures;
 use physique_text::TextEncoder;
 
 use super::{Condition, ConditionKind, GenerateRequest, MdmFolder, generate_whole, plan_motions};
 use crate::Error;
 use crate::diffusion::{BatchEdit, Edit, GuideWeights, Method, Sampler, Schedule};
-use crate::tensors::tensor;
 use crate::text::{NearestCaption, PromptEncoder};
 
 /// Asks a network for motions in words.
@@ -25,6 +25,9 @@ pub struct TextToMotion {
 pub struct Prompt<'a> {
     /// What it is to show; nothing in particular without words.
     pub text: &'a str,
+    /// What trunk and arms show, while path and legs do as the text says: for two things at once that
+    /// no training motion shows. [`TextToMotion::generate`] only.
+    pub upper_body: Option<&'a str>,
     /// Frames.
     pub frames: usize,
     /// Another seed is another motion.
@@ -67,6 +70,14 @@ impl Default for Sampling {
             smooth_hz: None,
         }
     }
+}
+
+/// What a batch of motions starts from.
+#[derive(Clone, Copy)]
+enum Start<'a> {
+    Nothing,
+    Edit(&'a BatchEdit),
+    After(&'a MotionFeatures),
 }
 
 impl TextToMotion {
@@ -134,10 +145,13 @@ impl TextToMotion {
     ///
     /// Parts of a `known` motion are in all of them, which then have its frames. `observe` is told
     /// the number of steps that are left. Cost: two passes through the network a
-    /// step.
+    /// step, and the same again where trunk and arms have a text of their own: they are made anew for
+    /// the legs that were made first. (Both at once, put together after each prediction as Petrovich
+    /// et al. 2024 do, stand still in networks that have not seen arms raised in walking.)
     ///
     /// # Errors
-    /// [`Error::Input`] without prompts, or for edits that do not fit; [`Error::Setting`] for steps
+    /// [`Error::Input`] without prompts, for edits that do not fit, and for a known motion beside texts
+    /// of the upper body; [`Error::Setting`] for steps
     /// that the network does not have; [`Error::Motion`] for features that are not finite, and for a
     /// cutoff that the frame rate does not allow.
     pub fn generate(
@@ -145,9 +159,38 @@ impl TextToMotion {
         prompts: &[Prompt<'_>],
         sampling: Sampling,
         known: Option<&KnownMotion>,
-        observe: impl FnMut(usize),
+        mut observe: impl FnMut(usize),
     ) -> Result<Vec<MotionFeatures>, Error> {
-        let mut motions = self.sample(prompts, sampling, (known, None), 0, observe)?;
+        let divided: Vec<usize> = (0..prompts.len())
+            .filter(|&prompt| prompts[prompt].upper_body.is_some())
+            .collect();
+        if known.is_some() {
+            undivided(prompts)?;
+        }
+        let lengths = |of: &[Prompt<'_>]| of.iter().map(|prompt| prompt.frames).collect::<Vec<_>>();
+        let edit = known
+            .map(|known| self.edit(known, &lengths(prompts)))
+            .transpose()?;
+        let start = edit.as_ref().map_or(Start::Nothing, Start::Edit);
+        let later = match divided.is_empty() {
+            true => 0,
+            false => self.schedule(sampling)?.len(),
+        };
+        let mut motions = self.sample(prompts, sampling, start, 0, |left| observe(later + left))?;
+        if !divided.is_empty() {
+            let upper = divided.iter().map(|&prompt| Prompt {
+                text: prompts[prompt].upper_body.unwrap_or_default(),
+                upper_body: None,
+                ..prompts[prompt]
+            });
+            let upper: Vec<_> = upper.collect();
+            let legs: Vec<_> = divided.iter().map(|&of| motions[of].as_slice()).collect();
+            let edit = self.legs(&legs, &lengths(&upper))?;
+            let made = self.sample(&upper, sampling, Start::Edit(&edit), 0, observe)?;
+            for (prompt, made) in divided.into_iter().zip(made) {
+                motions[prompt] = made;
+            }
+        }
         for (motion, prompt) in motions.iter_mut().zip(prompts) {
             motion.truncate(prompt.frames * self.folder.statistics.mean().len());
         }
@@ -166,7 +209,8 @@ impl TextToMotion {
         sampling: Sampling,
         frames: usize,
     ) -> Result<Vec<MotionFeatures>, Error> {
-        let motions = self.sample(prompts, sampling, (None, None), frames, |_| ())?;
+        undivided(prompts)?;
+        let motions = self.sample(prompts, sampling, Start::Nothing, frames, |_| ())?;
         self.features(motions, sampling.smooth_hz)
     }
 
@@ -183,17 +227,17 @@ impl TextToMotion {
         after: &MotionFeatures,
         observe: impl FnMut(usize),
     ) -> Result<Vec<MotionFeatures>, Error> {
-        let motions = self.sample(prompts, sampling, (None, Some(after)), 0, observe)?;
+        undivided(prompts)?;
+        let motions = self.sample(prompts, sampling, Start::After(after), 0, observe)?;
         self.features(motions, sampling.smooth_hz)
     }
 
-    /// Normalised motions with what lies behind their lengths; parts of a known motion are in all of
-    /// them, or they go on from one.
+    /// Normalised motions with what lies behind their lengths, by texts of the whole body.
     fn sample(
         &self,
         prompts: &[Prompt<'_>],
         sampling: Sampling,
-        (known, after): (Option<&KnownMotion>, Option<&MotionFeatures>),
+        start: Start<'_>,
         frames: usize,
         observe: impl FnMut(usize),
     ) -> Result<Vec<Vec<f32>>, Error> {
@@ -209,10 +253,7 @@ impl TextToMotion {
                 return Err(Error::input("Prompts", expected, "words"));
             }
         };
-        let schedule = match sampling.steps {
-            None => self.schedule.clone(),
-            Some(steps) => self.schedule.respaced(steps)?,
-        };
+        let schedule = self.schedule(sampling)?;
         let guidance = match self.prompts {
             Some(_) if !self.folder.is_unguided() => sampling.guidance,
             _ => 1.0,
@@ -220,53 +261,40 @@ impl TextToMotion {
         let guides = sampling.guides.guides(&self.folder.statistics)?;
         let lengths: Vec<usize> = prompts.iter().map(|prompt| prompt.frames).collect();
         let seeds: Vec<u64> = prompts.iter().map(|prompt| prompt.seed).collect();
-        let edit = known
-            .map(|known| self.edit(known, &lengths, &device))
-            .transpose()?;
         let request = GenerateRequest {
             condition: &condition,
             lengths: &lengths,
             seeds: &seeds,
             guidance,
-            edit: edit.as_ref(),
+            edit: match start {
+                Start::Edit(edit) => Some(edit),
+                Start::Nothing | Start::After(_) => None,
+            },
             guides: &guides,
             context: None,
         };
         let sampler = Sampler::new(schedule, sampling.method);
         let network = &self.folder.network;
-        match after {
-            None => generate_whole(network, &sampler, request, frames, observe),
-            Some(after) => {
+        match start {
+            Start::Nothing | Start::Edit(_) => {
+                generate_whole(network, &sampler, request, frames, observe)
+            }
+            Start::After(after) => {
                 let context = self.context(after, prompts.len())?;
                 plan_motions(network, &sampler, request, &context, observe)
             }
         }
     }
 
-    /// The last frames of a motion, for each motion of a batch.
-    fn context(&self, after: &MotionFeatures, batch: usize) -> Result<Tensor<3>, Error> {
-        let config = self.folder.network.config();
-        let (frames, columns) = (config.context(), config.columns);
-        let mut values = after.values().to_vec();
-        if values.len() < frames * columns || after.layout() != self.layout() {
-            let expected = format!("{frames} frames of {columns} features or more");
-            let found = format!("{} frames", after.frame_count());
-            return Err(Error::input("Motion to go on from", expected, found));
+    /// The steps of noise that are walked.
+    fn schedule(&self, sampling: Sampling) -> Result<Schedule, Error> {
+        match sampling.steps {
+            None => Ok(self.schedule.clone()),
+            Some(steps) => self.schedule.respaced(steps),
         }
-        self.folder.statistics.normalise(&mut values);
-        let last = &values[values.len() - frames * columns..];
-        let shape = [batch, frames, columns];
-        Ok(tensor(
-            last.repeat(batch),
-            shape,
-            &self.folder.network.device(),
-        ))
     }
 
-    fn layout(&self) -> FeatureLayout {
-        FeatureLayout::of(self.folder.statistics.skeleton())
-    }
-
+    /// Normalised features as they are.
     fn features(
         &self,
         motions: Vec<Vec<f32>>,
@@ -284,27 +312,13 @@ impl TextToMotion {
         });
         motions.collect()
     }
+}
 
-    /// The edit of a batch, padded to whole tokens of the network.
-    fn edit(
-        &self,
-        known: &KnownMotion,
-        lengths: &[usize],
-        device: &Device,
-    ) -> Result<BatchEdit, Error> {
-        let frames = known.features.frame_count();
-        if let Some(length) = lengths.iter().find(|&&length| length != frames) {
-            let expected = format!("{frames} frames, as of the known motion");
-            return Err(Error::input("Motions", expected, length));
-        }
-        let config = self.folder.network.config();
-        let padded = frames.next_multiple_of(config.frames_per_token);
-        let mut features = known.features.values().to_vec();
-        self.folder.statistics.normalise(&mut features);
-        features.resize(padded * config.columns, 0.0);
-        let shape = [lengths.len(), padded, config.columns];
-        let features = tensor(features.repeat(lengths.len()), shape, device);
-        let edits = vec![known.edit.clone().padded(padded); lengths.len()];
-        Edit::of_batch(&edits, features)
+/// Refuses texts of the upper body, where there is one pass only.
+fn undivided(prompts: &[Prompt<'_>]) -> Result<(), Error> {
+    let divided = prompts.iter().filter(|prompt| prompt.upper_body.is_some());
+    match divided.count() {
+        0 => Ok(()),
+        found => Err(Error::input("Texts of the upper body", "none here", found)),
     }
 }
