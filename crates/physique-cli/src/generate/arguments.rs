@@ -18,7 +18,7 @@ pub(crate) struct GenerateArguments {
     pub(crate) texts: Vec<String>,
     /// What trunk and arms do, while legs do as the texts say [default: texts that tell two things at
     /// once, such as "walks and waves", are divided].
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", conflicts_with_all = ["from", "after"])]
     pub(crate) upper_body: Option<String>,
     /// Take texts as they stand: divide none.
     #[arg(long, conflicts_with = "upper_body")]

@@ -32,8 +32,9 @@ impl Parts {
 /// What a text of the flags asks for. Tells where it was divided, and where it is about something that
 /// the network was not trained with.
 pub(super) fn of(text: &str, arguments: &GenerateArguments, network: &TextToMotion) -> Parts {
-    // What is kept of a motion divides the body already.
-    let undivided = arguments.undivided || arguments.edit.from.is_some();
+    // What is kept of a motion divides the body already, and planners go on with all of it.
+    let given = arguments.edit.from.is_some() || arguments.edit.after.is_some();
+    let undivided = arguments.undivided || given;
     let parts = match &arguments.upper_body {
         None if !undivided => Parts::divided(text),
         upper_body => Parts {
