@@ -26,7 +26,7 @@ use crate::Error;
 pub use gpu::GpuSelfIntersection;
 pub use ground::GroundLoss;
 pub use operation::losses;
-pub use self_intersection::{SelfIntersectionLoss, SpherePairs};
+pub use self_intersection::{SelfIntersectionLoss, SelfIntersectionSettings, SpherePairs};
 pub use sliding::SlidingLoss;
 pub use weighted::WeightedLoss;
 

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use burn::tensor::{Device, Tensor, TensorData};
 use physique_learn::Error;
 use physique_learn::mdm::{ConditionKind, Mdm, MdmConfig, MdmTask, MdmTraining};
-use physique_learn::motion_loss::{MotionLoss, SelfIntersectionLoss, SpherePairs, losses};
+use physique_learn::motion_loss::{
+    MotionLoss, SelfIntersectionLoss, SelfIntersectionSettings, SpherePairs, losses,
+};
 use physique_learn::random::Random;
 use physique_learn::trainer::{
     BatchCondition, MotionBatch, MotionSource, Task, Trainer, TrainerConfig,
@@ -65,10 +67,20 @@ fn loss(rule: GradientRule, statistics: &FeatureStatistics) -> SelfIntersectionL
 /// The mean over a motion's own frames, of features out of their normalisation.
 #[test]
 fn value_and_gradient_are_those_of_features() {
+    for gradient in [GradientRule::Full, GradientRule::ParentsConstant] {
+        are_those_of_features(gradient);
+    }
+}
+
+fn are_those_of_features(gradient: GradientRule) {
     let (batch, statistics) = batch(0.0);
-    let found = SelfIntersectionLoss::embedded(&statistics).expect("embedded");
+    let settings = SelfIntersectionSettings {
+        gradient,
+        ..SelfIntersectionSettings::default()
+    };
+    let found = SelfIntersectionLoss::embedded(&statistics, settings).expect("embedded");
     let found = found.evaluate(&batch, FRAMES, &LENGTHS).expect("finite");
-    let features = FeatureLoss::of_open_body(GradientRule::ParentsConstant).expect("embedded");
+    let features = FeatureLoss::of_open_body(gradient).expect("embedded");
     let rate = physique_motion::FrameRate::new(20.0).expect("positive");
     let motions = batch.chunks_exact(FRAMES * COLUMNS);
     let by_motions = found.gradient.chunks_exact(FRAMES * COLUMNS);
@@ -101,11 +113,17 @@ fn value_and_gradient_are_those_of_features() {
 fn ablations_compare_other_spheres() {
     let (batch, statistics) = batch(0.0);
     let losses = |spheres, pairs| {
-        let loss = SelfIntersectionLoss::embedded_with(&statistics, spheres, pairs);
+        let settings = SelfIntersectionSettings {
+            spheres,
+            pairs,
+            ..SelfIntersectionSettings::default()
+        };
+        let loss = SelfIntersectionLoss::embedded(&statistics, settings);
         let found = loss.expect("embedded").evaluate(&batch, FRAMES, &LENGTHS);
         found.expect("finite").losses
     };
-    let default = SelfIntersectionLoss::embedded(&statistics).expect("embedded");
+    let default = SelfIntersectionLoss::embedded(&statistics, SelfIntersectionSettings::default())
+        .expect("embedded");
     let default = default.evaluate(&batch, FRAMES, &LENGTHS).expect("finite");
     let reduced = losses(192, SpherePairs::Reduced);
     assert_eq!(reduced, default.losses);
@@ -125,7 +143,13 @@ fn ablations_compare_other_spheres() {
             assert!(spheres == 192 || of_size != reduced, "{spheres}: {of_size}");
         }
     }
-    let error = SelfIntersectionLoss::embedded_with(&statistics, 191, SpherePairs::Reduced);
+    let error = SelfIntersectionLoss::embedded(
+        &statistics,
+        SelfIntersectionSettings {
+            spheres: 191,
+            ..SelfIntersectionSettings::default()
+        },
+    );
     assert!(error.unwrap_err().to_string().contains("191"));
 }
 
@@ -133,7 +157,8 @@ fn ablations_compare_other_spheres() {
 fn padding_does_not_matter() {
     let of = |padding: f32| {
         let (batch, statistics) = batch(padding);
-        let loss = SelfIntersectionLoss::embedded(&statistics).expect("embedded");
+        let loss = SelfIntersectionLoss::embedded(&statistics, SelfIntersectionSettings::default())
+            .expect("embedded");
         loss.evaluate(&batch, FRAMES, &LENGTHS).expect("finite")
     };
     assert_eq!(of(0.0), of(1e3));

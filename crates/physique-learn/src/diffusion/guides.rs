@@ -6,7 +6,9 @@ use physique_motion::features::FeatureStatistics;
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
-use crate::motion_loss::{GroundLoss, SelfIntersectionLoss, SlidingLoss, WeightedLoss};
+use crate::motion_loss::{
+    GroundLoss, SelfIntersectionLoss, SelfIntersectionSettings, SlidingLoss, WeightedLoss,
+};
 
 /// How much each of the losses guides that need no file; 0 does nothing, 1 is a full step. Written
 /// `self=1,feet=0.5,ground=1`.
@@ -30,11 +32,12 @@ impl GuideWeights {
     ///
     /// # Errors
     /// [`Error::Setting`] for a weight that is none; those of
-    /// [`SelfIntersectionLoss::embedded_for_descent`].
+    /// [`SelfIntersectionLoss::embedded`].
     pub fn guides(&self, statistics: &FeatureStatistics) -> Result<Vec<WeightedLoss>, Error> {
         let mut guides = Vec::new();
         if self.self_intersection != 0.0 {
-            let loss = SelfIntersectionLoss::embedded_for_descent(statistics)?;
+            let loss =
+                SelfIntersectionLoss::embedded(statistics, SelfIntersectionSettings::default())?;
             guides.push(WeightedLoss::new("self", self.self_intersection, loss)?);
         }
         if self.ground != 0.0 {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::Error;
 use crate::diffusion::Schedule;
 use crate::motion_loss::{
-    GroundLoss, SelfIntersectionLoss, SlidingLoss, SpherePairs, WeightedLoss,
+    GroundLoss, SelfIntersectionLoss, SelfIntersectionSettings, SlidingLoss, WeightedLoss,
 };
 
 /// How a motion diffusion model is trained. The default is as published.
@@ -34,10 +34,8 @@ pub struct MdmTraining {
     /// Weight of the self-intersection of the predicted motions: lambda_SI of SIA-MDM, 0.01 for
     /// HumanML3D and 0.0001 for KIT; see [`SelfIntersectionLoss`].
     pub self_intersection_weight: f64,
-    /// Spheres that self-intersection is measured by: 128, 192 or 256.
-    pub self_intersection_spheres: usize,
-    /// Which pairs of them are compared.
-    pub self_intersection_pairs: SpherePairs,
+    /// By what self-intersection is measured.
+    pub self_intersection: SelfIntersectionSettings,
     /// Weight of feet in the ground or above it, see [`GroundLoss`].
     pub ground_weight: f64,
     /// Weight of sliding feet, see [`SlidingLoss`].
@@ -56,8 +54,7 @@ impl Default for MdmTraining {
             joint_weight: 0.0,
             foot_contact_weight: 0.0,
             self_intersection_weight: 0.0,
-            self_intersection_spheres: 192,
-            self_intersection_pairs: SpherePairs::Reduced,
+            self_intersection: SelfIntersectionSettings::default(),
             ground_weight: 0.0,
             sliding_weight: 0.0,
         }
@@ -145,11 +142,7 @@ impl MdmTraining {
     ) -> Result<Vec<WeightedLoss>, Error> {
         let mut losses = Vec::new();
         if self.self_intersection_weight > 0.0 {
-            let loss = SelfIntersectionLoss::embedded_with(
-                statistics,
-                self.self_intersection_spheres,
-                self.self_intersection_pairs,
-            )?;
+            let loss = SelfIntersectionLoss::embedded(statistics, self.self_intersection)?;
             let weight = self.self_intersection_weight;
             losses.push(WeightedLoss::new("self_intersection", weight, loss)?);
         }

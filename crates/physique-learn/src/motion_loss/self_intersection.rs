@@ -22,6 +22,30 @@ pub struct SelfIntersectionLoss {
     on_gpu: super::GpuSelfIntersection,
 }
 
+/// By what the self-intersection of the embedded body is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SelfIntersectionSettings {
+    /// Spheres: 128, 192 or 256.
+    pub spheres: usize,
+    /// Which pairs of them are compared.
+    pub pairs: SpherePairs,
+    /// How far gradients reach through the rotation layer. That of the published program,
+    /// [`GradientRule::ParentsConstant`], is no derivative, and its steps lead upwards as often as
+    /// down: docs/training.md has numbers.
+    pub gradient: GradientRule,
+}
+
+impl Default for SelfIntersectionSettings {
+    fn default() -> Self {
+        Self {
+            spheres: 192,
+            pairs: SpherePairs::Reduced,
+            gradient: GradientRule::Full,
+        }
+    }
+}
+
 /// Which pairs of spheres the loss compares.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -44,43 +68,20 @@ impl SelfIntersectionLoss {
         }
     }
 
-    /// The loss of the embedded open body with the paper's gradient, which reaches a joint by its
-    /// own bones only.
-    ///
-    /// # Errors
-    /// As [`FeatureLoss::of_open_body`].
-    pub fn embedded(statistics: &FeatureStatistics) -> Result<Self, Error> {
-        let loss = FeatureLoss::of_open_body(GradientRule::ParentsConstant)?;
-        Ok(Self::new(loss, statistics.clone()))
-    }
-
-    /// The same by one of the other embedded proxies, or with all pairs of spheres: the ablations
-    /// of the paper's table 2.
+    /// The loss of the embedded open body in its mean shape.
     ///
     /// # Errors
     /// For a number of spheres that no embedded proxy has.
-    pub fn embedded_with(
+    pub fn embedded(
         statistics: &FeatureStatistics,
-        spheres: usize,
-        pairs: SpherePairs,
+        settings: SelfIntersectionSettings,
     ) -> Result<Self, Error> {
-        let proxy = open_proxy_with(spheres)?;
-        let pairs = match pairs {
+        let proxy = open_proxy_with(settings.spheres)?;
+        let pairs = match settings.pairs {
             SpherePairs::Reduced => proxy.pairs()?,
-            SpherePairs::All => Pairs::all(spheres)?,
+            SpherePairs::All => Pairs::all(settings.spheres)?,
         };
-        let rule = GradientRule::ParentsConstant;
-        let loss = FeatureLoss::of_open_body_with(&proxy, &pairs, rule)?;
-        Ok(Self::new(loss, statistics.clone()))
-    }
-
-    /// The loss of the embedded open body with the derivative of what is computed, which descends:
-    /// for guidance.
-    ///
-    /// # Errors
-    /// As [`FeatureLoss::of_open_body`].
-    pub fn embedded_for_descent(statistics: &FeatureStatistics) -> Result<Self, Error> {
-        let loss = FeatureLoss::of_open_body(GradientRule::Full)?;
+        let loss = FeatureLoss::of_open_body_with(&proxy, &pairs, settings.gradient)?;
         Ok(Self::new(loss, statistics.clone()))
     }
 }

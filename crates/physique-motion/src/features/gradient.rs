@@ -2,6 +2,7 @@
 
 use glam::{DMat3, DVec3, Vec3};
 use physique_body::Joint;
+use serde::{Deserialize, Serialize};
 
 use super::{
     MotionFeatures, RotationLayer,
@@ -12,7 +13,8 @@ use super::{
 use crate::Error;
 
 /// How far a rotation's gradient reaches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum GradientRule {
     /// As published: a joint's rotation is moved by its own bones only; those of its parents count
     /// as constants.
