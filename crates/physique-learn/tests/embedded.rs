@@ -2,7 +2,8 @@
 #![cfg(feature = "embedded")]
 
 use burn::tensor::Device;
-use physique_learn::mdm::{MdmFolder, Prompt, Sampling, TextToMotion};
+use physique_learn::diffusion::Edit;
+use physique_learn::mdm::{KnownMotion, MdmFolder, Prompt, Sampling, TextToMotion};
 use physique_motion::features::recover_from_positions;
 use physique_text::MiniLm;
 
@@ -94,4 +95,45 @@ fn legs_and_arms_do_different_things() {
     };
     let difference = highest(LEFT_WRIST) - highest(RIGHT_WRIST);
     assert!(difference > 0.3, "{difference} m");
+}
+
+/// Whatever else is in the batch; and what is kept of a known motion leaves no room for other arms.
+#[test]
+fn divided_texts_are_made_one_by_one() {
+    let network = network();
+    let plain = Prompt {
+        text: "a person runs",
+        upper_body: None,
+        frames: 40,
+        seed: 1,
+    };
+    let divided = Prompt {
+        upper_body: Some("a person waves both hands"),
+        frames: 60,
+        seed: 2,
+        ..plain
+    };
+    let sampling = Sampling {
+        steps: Some(5),
+        ..Sampling::default()
+    };
+    let mut left = Vec::new();
+    let both = network.generate(&[plain, divided], sampling, None, |steps| left.push(steps));
+    let both = both.expect("finite");
+    assert!(left.into_iter().eq((0..10).rev()), "two passes of 5 steps");
+    for (motion, prompt) in both.iter().zip([plain, divided]) {
+        assert_eq!(motion.frame_count(), prompt.frames);
+        let alone = network.generate(&[prompt], sampling, None, |_| ());
+        let alone = alone.expect("finite").remove(0);
+        let differences = motion.values().iter().zip(alone.values());
+        let most = differences.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        assert!(most < 1e-3, "{most}");
+    }
+    let known = KnownMotion {
+        features: both[1].clone(),
+        edit: Edit::upper_body(60, both[1].skeleton()),
+    };
+    let refused = network.generate(&[divided], sampling, Some(&known), |_| ());
+    let refused = refused.expect_err("two masters").to_string();
+    assert!(refused.contains("upper body"), "{refused}");
 }

@@ -1,6 +1,7 @@
 //! A network with all that is needed to ask it for motions in words.
 
 mod given;
+mod request;
 
 use physique_motion::FrameRate;
 use physique_motion::features::MotionFeatures;
@@ -8,8 +9,10 @@ use physique_text::TextEncoder;
 
 use super::{Condition, ConditionKind, GenerateRequest, MdmFolder, generate_whole, plan_motions};
 use crate::Error;
-use crate::diffusion::{BatchEdit, Edit, GuideWeights, Method, Sampler, Schedule};
+use crate::diffusion::{BatchEdit, Sampler, Schedule};
 use crate::text::{NearestCaption, PromptEncoder};
+
+pub use request::{KnownMotion, Prompt, Sampling};
 
 /// Asks a network for motions in words.
 #[derive(Debug)]
@@ -18,58 +21,6 @@ pub struct TextToMotion {
     prompts: Option<PromptEncoder>,
     schedule: Schedule,
     frame_rate: FrameRate,
-}
-
-/// A motion to be.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Prompt<'a> {
-    /// What it is to show; nothing in particular without words.
-    pub text: &'a str,
-    /// What trunk and arms show, while path and legs do as the text says: for two things at once that
-    /// no training motion shows. [`TextToMotion::generate`] only.
-    pub upper_body: Option<&'a str>,
-    /// Frames.
-    pub frames: usize,
-    /// Another seed is another motion.
-    pub seed: u64,
-}
-
-/// A motion that parts are kept of.
-#[derive(Clone, Debug)]
-pub struct KnownMotion {
-    /// Its features, not normalised.
-    pub features: MotionFeatures,
-    /// What is kept of it: as many frames and columns.
-    pub edit: Edit,
-}
-
-/// How motions are sampled.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sampling {
-    /// Scale of classifier-free guidance.
-    pub guidance: f64,
-    /// How a step is taken.
-    pub method: Method,
-    /// Steps of noise that are walked; `None`: all that the network was trained with.
-    pub steps: Option<usize>,
-    /// Losses that motions are moved against while they are made.
-    pub guides: GuideWeights,
-    /// Cutoff in Hz of a low-pass filter over what was made, [`MotionFeatures::low_passed`]; `None` for
-    /// what the network gives. Motions with parts of a known one are not filtered.
-    pub smooth_hz: Option<f64>,
-}
-
-impl Default for Sampling {
-    /// MDM's: every step, drawn from the posterior, guidance 2.5.
-    fn default() -> Self {
-        Self {
-            guidance: 2.5,
-            method: Method::Ancestral,
-            steps: None,
-            guides: GuideWeights::default(),
-            smooth_hz: None,
-        }
-    }
 }
 
 /// What a batch of motions starts from.
@@ -144,16 +95,17 @@ impl TextToMotion {
     /// network sees padding.
     ///
     /// Parts of a `known` motion are in all of them, which then have its frames. `observe` is told
-    /// the number of steps that are left. Cost: two passes through the network a
-    /// step, and the same again where trunk and arms have a text of their own: they are made anew for
-    /// the legs that were made first. (Both at once, put together after each prediction as Petrovich
-    /// et al. 2024 do, stand still in networks that have not seen arms raised in walking.)
+    /// the number of steps that are left. Cost: two passes through the network a step, and the same
+    /// again where trunk and arms have a text of their own: they are made anew for the legs that were
+    /// made first. (Both at once, put together after each prediction as Petrovich et al. do in
+    /// "Multi-Track Timeline Control", CVPRW 2024, stand still in networks that have never seen arms
+    /// raised in walking.)
     ///
     /// # Errors
     /// [`Error::Input`] without prompts, for edits that do not fit, and for a known motion beside texts
-    /// of the upper body; [`Error::Setting`] for steps
-    /// that the network does not have; [`Error::Motion`] for features that are not finite, and for a
-    /// cutoff that the frame rate does not allow.
+    /// of the upper body; [`Error::Setting`] for steps that the network does not have;
+    /// [`Error::Motion`] for features that are not finite, and for a cutoff that the frame rate does
+    /// not allow.
     pub fn generate(
         &self,
         prompts: &[Prompt<'_>],
@@ -161,35 +113,21 @@ impl TextToMotion {
         known: Option<&KnownMotion>,
         mut observe: impl FnMut(usize),
     ) -> Result<Vec<MotionFeatures>, Error> {
-        let divided: Vec<usize> = (0..prompts.len())
-            .filter(|&prompt| prompts[prompt].upper_body.is_some())
-            .collect();
         if known.is_some() {
             undivided(prompts)?;
         }
-        let lengths = |of: &[Prompt<'_>]| of.iter().map(|prompt| prompt.frames).collect::<Vec<_>>();
+        let divided = prompts.iter().any(|prompt| prompt.upper_body.is_some());
+        let later = match divided {
+            true => self.schedule(sampling)?.len(),
+            false => 0,
+        };
         let edit = known
             .map(|known| self.edit(known, &lengths(prompts)))
             .transpose()?;
         let start = edit.as_ref().map_or(Start::Nothing, Start::Edit);
-        let later = match divided.is_empty() {
-            true => 0,
-            false => self.schedule(sampling)?.len(),
-        };
         let mut motions = self.sample(prompts, sampling, start, 0, |left| observe(later + left))?;
-        if !divided.is_empty() {
-            let upper = divided.iter().map(|&prompt| Prompt {
-                text: prompts[prompt].upper_body.unwrap_or_default(),
-                upper_body: None,
-                ..prompts[prompt]
-            });
-            let upper: Vec<_> = upper.collect();
-            let legs: Vec<_> = divided.iter().map(|&of| motions[of].as_slice()).collect();
-            let edit = self.legs(&legs, &lengths(&upper))?;
-            let made = self.sample(&upper, sampling, Start::Edit(&edit), 0, observe)?;
-            for (prompt, made) in divided.into_iter().zip(made) {
-                motions[prompt] = made;
-            }
+        if divided {
+            self.make_upper_bodies(&mut motions, prompts, sampling, observe)?;
         }
         for (motion, prompt) in motions.iter_mut().zip(prompts) {
             motion.truncate(prompt.frames * self.folder.statistics.mean().len());
@@ -232,6 +170,34 @@ impl TextToMotion {
         self.features(motions, sampling.smooth_hz)
     }
 
+    /// Makes trunk and arms anew where they have a text of their own, for path and legs as they are.
+    fn make_upper_bodies(
+        &self,
+        motions: &mut [Vec<f32>],
+        prompts: &[Prompt<'_>],
+        sampling: Sampling,
+        observe: impl FnMut(usize),
+    ) -> Result<(), Error> {
+        let (mut places, mut legs, mut upper) = (Vec::new(), Vec::new(), Vec::new());
+        for (place, prompt) in prompts.iter().enumerate() {
+            if let Some(text) = prompt.upper_body {
+                places.push(place);
+                legs.push(motions[place].as_slice());
+                upper.push(Prompt {
+                    text,
+                    upper_body: None,
+                    ..*prompt
+                });
+            }
+        }
+        let edit = self.legs(&legs, &lengths(&upper))?;
+        let made = self.sample(&upper, sampling, Start::Edit(&edit), 0, observe)?;
+        for (place, made) in places.into_iter().zip(made) {
+            motions[place] = made;
+        }
+        Ok(())
+    }
+
     /// Normalised motions with what lies behind their lengths, by texts of the whole body.
     fn sample(
         &self,
@@ -259,7 +225,7 @@ impl TextToMotion {
             _ => 1.0,
         };
         let guides = sampling.guides.guides(&self.folder.statistics)?;
-        let lengths: Vec<usize> = prompts.iter().map(|prompt| prompt.frames).collect();
+        let lengths = lengths(prompts);
         let seeds: Vec<u64> = prompts.iter().map(|prompt| prompt.seed).collect();
         let request = GenerateRequest {
             condition: &condition,
@@ -321,4 +287,8 @@ fn undivided(prompts: &[Prompt<'_>]) -> Result<(), Error> {
         0 => Ok(()),
         found => Err(Error::input("Texts of the upper body", "none here", found)),
     }
+}
+
+fn lengths(prompts: &[Prompt<'_>]) -> Vec<usize> {
+    prompts.iter().map(|prompt| prompt.frames).collect()
 }
