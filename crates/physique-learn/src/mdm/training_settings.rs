@@ -9,7 +9,8 @@ use crate::motion_loss::{
     GroundLoss, SelfIntersectionLoss, SelfIntersectionSettings, SlidingLoss, WeightedLoss,
 };
 
-/// How a motion diffusion model is trained. The default is as published.
+/// How a motion diffusion model is trained. The default is as published, but for the gradient of the
+/// self-intersection loss, see [`SelfIntersectionSettings`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MdmTraining {

@@ -31,8 +31,8 @@ pub struct SelfIntersectionSettings {
     /// Which pairs of them are compared.
     pub pairs: SpherePairs,
     /// How far gradients reach through the rotation layer. That of the published program,
-    /// [`GradientRule::ParentsConstant`], is no derivative, and its steps lead upwards as often as
-    /// down: docs/training.md has numbers.
+    /// [`GradientRule::ParentsConstant`], is no derivative, and training by it raised the loss:
+    /// docs/training.md has numbers.
     pub gradient: GradientRule,
 }
 
