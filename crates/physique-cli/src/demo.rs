@@ -63,6 +63,7 @@ pub(crate) fn run(arguments: &DemoArguments) -> Result<Exit> {
 /// A motion of the embedded network, which knows some words.
 #[cfg(feature = "learn")]
 fn generated(scorer: &Scorer, arguments: &DemoArguments) -> Result<MotionReport> {
+    use physique_learn::DeviceChoice;
     use physique_learn::mdm::{Prompt, Sampling};
 
     use crate::generate::SMOOTH_HZ;
@@ -70,7 +71,7 @@ fn generated(scorer: &Scorer, arguments: &DemoArguments) -> Result<MotionReport>
 
     const NAME: &str = "generated";
     const TEXT: &str = "a tired person walks and waves with the left hand";
-    let network = crate::generate::model::embedded(physique_learn::DeviceChoice::Cpu)?;
+    let network = crate::network::default(DeviceChoice::Cpu)?;
     let parts = Parts::divided(TEXT);
     let prompt = Prompt {
         text: &parts.text,

@@ -18,6 +18,8 @@ mod generate;
 mod inspect;
 mod journal;
 mod names;
+#[cfg(feature = "learn")]
+mod network;
 mod parquet;
 mod progress;
 mod proxy;

@@ -26,6 +26,8 @@ mod training_settings;
 
 pub use condition::Condition;
 pub use config::{Architecture, ConditionKind, MdmConfig, PlannerConfig};
+#[cfg(feature = "embedded")]
+pub use embedded::EmbeddedNetwork;
 pub use folder::{MdmDescription, MdmFolder};
 pub use generate::{GenerateRequest, generate, generate_whole};
 pub use network::{Mdm, MdmQuery};

@@ -1,24 +1,40 @@
-//! The network inside the program.
+//! The networks inside the program.
 #![cfg(feature = "embedded")]
 
 use burn::tensor::Device;
 use physique_learn::diffusion::Edit;
-use physique_learn::mdm::{KnownMotion, MdmFolder, Prompt, Sampling, TextToMotion};
+use physique_learn::mdm::{
+    EmbeddedNetwork, KnownMotion, MdmFolder, Prompt, Sampling, TextToMotion,
+};
 use physique_motion::features::recover_from_positions;
 use physique_text::MiniLm;
 
 fn network() -> TextToMotion {
-    let folder = MdmFolder::embedded(&Device::flex()).expect("whole");
+    open(EmbeddedNetwork::Small)
+}
+
+fn open(network: EmbeddedNetwork) -> TextToMotion {
+    let folder = MdmFolder::embedded(network, &Device::flex()).expect("whole");
     let encoder = MiniLm::embedded().expect("embedded");
     TextToMotion::new(folder, Some(Box::new(encoder))).expect("its encoder")
 }
 
 #[test]
-fn it_says_whose_data_it_is_from() {
-    let folder = MdmFolder::embedded(&Device::flex()).expect("whole");
-    let notes = &folder.description.notes;
-    assert!(notes["licence"].contains("BY-NC"), "{notes:?}");
-    assert!(notes["attribution"].contains("Bandai"), "{notes:?}");
+fn they_say_whose_data_they_are_from() {
+    for network in EmbeddedNetwork::ALL {
+        let folder = MdmFolder::embedded(network, &Device::flex()).expect("whole");
+        let notes = &folder.description.notes;
+        let not_free = network == EmbeddedNetwork::Small;
+        assert_eq!(notes["licence"].contains("-NC"), not_free, "{notes:?}");
+        assert_eq!(
+            notes["attribution"].contains("Bandai"),
+            not_free,
+            "{notes:?}"
+        );
+        assert!(notes["attribution"].contains("100STYLE"), "{notes:?}");
+        assert_eq!(EmbeddedNetwork::named(network.name()), Some(network));
+    }
+    assert_eq!(EmbeddedNetwork::named("mdm-huge"), None);
 }
 
 #[test]

@@ -11,10 +11,10 @@ use crate::generate::arguments::SamplingArguments;
 
 #[derive(Debug, Args)]
 pub(crate) struct EvaluateArguments {
-    /// Folder of a network, of `physique train`, or a published checkpoint (.pt) of the data set with
-    /// args.json beside it; may be given more than once. Without one, only the real motions' row is
-    /// made.
-    #[arg(long = "model", value_name = "FOLDER|FILE")]
+    /// A network inside the program (`mdm-small`, `mdm-small-free`), a folder of `physique train`, or a
+    /// published checkpoint (.pt) of the data set with args.json beside it; may be given more than once.
+    /// Without one, only the real motions' row is made.
+    #[arg(long = "model", value_name = "NAME|FOLDER|FILE")]
     pub(crate) models: Vec<PathBuf>,
     /// Text encoder of networks that were not trained with the embedded one: a folder in the layout of
     /// Hugging Face, or OpenAI's ViT-B-32.pt; may be given more than once, each network takes its own.

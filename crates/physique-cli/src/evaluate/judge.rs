@@ -3,7 +3,9 @@
 use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use physique_data::{Dataset, Split, Wording};
-use physique_learn::evaluation::judge::{ContentJudge, Trial, TrialOptions, TrialReport, TrialRow};
+use physique_learn::evaluation::judge::{
+    ContentJudge, JudgeAccuracy, Trial, TrialOptions, TrialReport, TrialRow,
+};
 use physique_learn::evaluation::{MotionGenerator, TextToMotionGenerator};
 use serde::Serialize;
 
@@ -34,10 +36,7 @@ pub(super) fn judge(
     let judge = ContentJudge::of_dataset(dataset, Split::Train, label)?;
     if models.is_empty() {
         let accuracy = judge.accuracy(dataset, Split::Validation, label)?;
-        println!(
-            "The judge is right about {:.1} % of the validation split.",
-            100.0 * accuracy
-        );
+        println!("The judge is right about {accuracy}.");
     }
     let mut judged = Vec::new();
     for model in models {
@@ -97,9 +96,16 @@ pub(super) fn print(judged: &[Judged]) {
             Wording::HeldOut => "held-out wordings",
         };
         println!(
-            "{name}, {wording}; the judge is right about {:.1} % of real validation clips",
-            100.0 * trial.judge_accuracy
+            "{name}, {wording}; the judge is right about {}",
+            trial.judge
         );
+        if !trial.judge.is_trusted() {
+            let (share, clips) = JudgeAccuracy::TRUSTED;
+            println!(
+                "Not to be relied on: a judge should be right about {:.0} % of {clips} clips or more.",
+                100.0 * share
+            );
+        }
         let rows = trial.rows.iter().chain([&trial.all]);
         print!("{}", render(&columns, &rows.map(cells).collect::<Vec<_>>()));
     }

@@ -4,13 +4,12 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use physique_data::Dataset;
-use physique_learn::checkpoint::CheckpointLimits;
 use physique_learn::evaluation::TextToMotionGenerator;
-use physique_learn::mdm::{MdmFolder, TextToMotion};
+use physique_learn::mdm::TextToMotion;
 
 use super::arguments::EvaluateArguments;
 use crate::generate::sampling;
-use crate::text_encoder;
+use crate::{network, text_encoder};
 
 /// The networks of the flags, in their order.
 pub(super) fn open_all(
@@ -30,12 +29,9 @@ pub(super) fn open_all(
 }
 
 fn open(path: &Path, arguments: &EvaluateArguments, dataset: &Dataset) -> Result<TextToMotion> {
-    let (device, limits) = (arguments.device.device.open()?, CheckpointLimits::default());
-    let model = match path.is_dir() {
-        true => MdmFolder::read(path, &limits, &device)?,
-        // Published networks have the mean and deviation of their data set.
-        false => MdmFolder::published(path, dataset.statistics().clone(), &limits, &device)?,
-    };
+    // Published networks have the mean and deviation of their data set.
+    let statistics = || Ok(dataset.statistics().clone());
+    let model = network::read(path, arguments.device.device, statistics)?;
     let skeleton = model.statistics.skeleton();
     if skeleton != dataset.skeleton() {
         bail!(

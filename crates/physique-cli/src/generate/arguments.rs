@@ -63,13 +63,14 @@ pub(crate) struct GenerateArguments {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Network")]
 pub(crate) struct ModelArguments {
-    /// Folder of a network of `physique train`, or a published checkpoint (.pt) with args.json
-    /// beside it [default: the embedded network].
-    #[arg(long, value_name = "FOLDER|FILE")]
+    /// A network inside the program: `mdm-small`, or `mdm-small-free`, which knows less and may be
+    /// used for anything; a folder of `physique train`; or a published checkpoint (.pt) with args.json
+    /// beside it [default: mdm-small].
+    #[arg(long, value_name = "NAME|FOLDER|FILE")]
     pub(crate) model: Option<PathBuf>,
     /// Text encoder: `minilm`, a folder in the layout of Hugging Face, or OpenAI's ViT-B-32.pt with
     /// bpe_simple_vocab_16e6.txt.gz beside it [default: `minilm`, where the network was trained with it].
-    #[arg(long, value_name = "NAME|FOLDER|FILE")]
+    #[arg(long, value_name = "NAME|FOLDER|FILE", requires = "model")]
     pub(crate) text: Option<String>,
     #[command(flatten)]
     pub(crate) device: DeviceArguments,

@@ -9,12 +9,14 @@
 //! How far the judge can be trusted is measured in the same way, on real clips that it does not
 //! know: [`ContentJudge::accuracy`].
 
+mod accuracy;
 mod description;
 mod neighbours;
 mod quality;
 mod sides;
 mod trial;
 
+pub use accuracy::JudgeAccuracy;
 pub use description::MotionDescription;
 pub use neighbours::{ContentJudge, Verdict};
 pub use quality::MotionQuality;

@@ -11,6 +11,8 @@ use crate::tensors::{numbers, tensor};
 
 /// Frames that one step of the movement encoder stands for.
 pub(super) const FRAMES_A_STEP: usize = 4;
+/// Most frames behind a motion's end that its last step of movement sees.
+pub(super) const SEEN_BEHIND: usize = 3;
 /// Columns at the end of a row, contacts of the feet, that the networks do not see.
 const UNSEEN: usize = 4;
 

@@ -133,7 +133,7 @@ fn it_tells_contents_and_sides_apart() {
     let labels = ["raise-left-hand", "raise-right-hand", "squat", "walk"];
     assert_eq!(judge.labels(), labels);
     let accuracy = judge.accuracy(&dataset, Split::Validation, "content");
-    assert_eq!(accuracy.expect("labelled"), 1.0);
+    assert_eq!(accuracy.expect("labelled").share(), 1.0);
     let [left, right] = sides(&dataset).map(|features| judge.judge(&features).expect("it fits"));
     assert_eq!([left.label, right.label], labels[..2]);
     assert!(left.share > 0.5 && left.share <= 1.0, "{left:?}");
@@ -202,7 +202,7 @@ fn a_trial_counts_what_is_right_swapped_and_else() {
         .map(|prompt| given(&prompt.caption.text))
         .collect();
     let report = trial.report(&dataset, &judge, &motions).expect("it works");
-    assert_eq!(report.judge_accuracy, 1.0);
+    assert_eq!(report.judge.share(), 1.0);
     for row in &report.rows {
         let expected = match row.value.as_str() {
             "raise-right-hand" => (0, 3),

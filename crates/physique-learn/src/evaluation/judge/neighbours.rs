@@ -6,7 +6,7 @@ use physique_data::{Dataset, Sampler, SamplerOptions, Split};
 use physique_motion::features::MotionFeatures;
 use rayon::prelude::*;
 
-use super::MotionDescription;
+use super::{JudgeAccuracy, MotionDescription};
 use crate::Error;
 
 /// Neighbours that vote.
@@ -163,12 +163,17 @@ impl ContentJudge {
         &self.labels
     }
 
-    /// Share of the clips of a split that the judge is right about: how far it can be trusted, where
-    /// the split is not the one it knows.
+    /// How many clips of a split the judge is right about: how far it can be trusted, where the split is
+    /// not the one it knows.
     ///
     /// # Errors
     /// [`Error::Input`] where no clip carries the label; those of the data set.
-    pub fn accuracy(&self, dataset: &Dataset, split: Split, label: &str) -> Result<f64, Error> {
+    pub fn accuracy(
+        &self,
+        dataset: &Dataset,
+        split: Split,
+        label: &str,
+    ) -> Result<JudgeAccuracy, Error> {
         let clips = labelled(dataset, split, label)?;
         if clips.is_empty() {
             let expected = format!("clips with the label `{label}`");
@@ -178,7 +183,10 @@ impl ContentJudge {
         for (features, label) in &clips {
             right += usize::from(self.judge(features)?.label == label);
         }
-        Ok(right as f64 / clips.len() as f64)
+        Ok(JudgeAccuracy {
+            right,
+            clips: clips.len(),
+        })
     }
 
     fn normalised(&self, description: &MotionDescription) -> Vec<f32> {

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::neighbours::labelled;
 use super::sides::other_side;
-use super::{ContentJudge, MotionQuality};
+use super::{ContentJudge, JudgeAccuracy, MotionQuality};
 use crate::Error;
 use crate::evaluation::Prompt;
 use crate::random::Random;
@@ -66,8 +66,8 @@ pub struct TrialReport {
     pub label: String,
     /// Whether the captions were among those to train with.
     pub wording: Wording,
-    /// Share of real clips of the validation split that the judge is right about.
-    pub judge_accuracy: f64,
+    /// How far the judge can be trusted: real clips of the validation split.
+    pub judge: JudgeAccuracy,
     /// By value.
     pub rows: Vec<TrialRow>,
     /// All of them together.
@@ -210,7 +210,7 @@ impl Trial {
         Ok(TrialReport {
             label: self.label.clone(),
             wording: self.wording,
-            judge_accuracy: judge.accuracy(dataset, Split::Validation, &self.label)?,
+            judge: judge.accuracy(dataset, Split::Validation, &self.label)?,
             all: together(&rows),
             rows,
         })
