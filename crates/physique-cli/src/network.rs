@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use physique::motion::features::FeatureStatistics;
 use physique_learn::DeviceChoice;
 use physique_learn::checkpoint::CheckpointLimits;
@@ -29,6 +29,13 @@ pub(crate) fn read(
             eprintln!("note: {name} is a network inside the program; ./{name} would be the folder");
         }
         return Ok(MdmFolder::embedded(network, &device)?);
+    }
+    if !path.exists() {
+        let names = EmbeddedNetwork::ALL.map(EmbeddedNetwork::name).join(", ");
+        bail!(
+            "{}: expected {names}, a folder of `physique train` or a published checkpoint, found nothing",
+            path.display()
+        );
     }
     Ok(match path.is_dir() {
         true => MdmFolder::read(path, &limits, &device)?,

@@ -59,3 +59,40 @@ fn parts_of_a_known_motion_leave_no_room_for_others() {
     assert!(told.contains("--upper-body"), "{told}");
     assert!(!out.exists());
 }
+
+/// Networks inside the program go by name, whatever folders there are.
+#[test]
+fn embedded_networks_go_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = |name: &str, asked: &[&str]| {
+        let file = folder.path().join(name);
+        let text = ["generate", "a person walks", "-o", path(&file)];
+        let few = ["--seconds", "1", "--steps", "3", "--to", "positions"];
+        let output = assert_cmd::Command::cargo_bin("physique")
+            .unwrap()
+            .args(&[&text[..], &few, asked].concat())
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let told = support::text(&output.stderr);
+        assert!(output.status.success(), "{told}");
+        (fs::read(&file).unwrap(), told)
+    };
+    let (default, _) = made("default.npy", &[]);
+    let (small, told) = made("small.npy", &["--model", "mdm-small"]);
+    assert_eq!(default, small);
+    assert!(!told.contains("folder"), "{told}");
+    fs::create_dir(folder.path().join("mdm-small-free")).unwrap();
+    let (free, told) = made("free.npy", &["--model", "mdm-small-free"]);
+    assert_ne!(free, small);
+    assert!(
+        told.contains("./mdm-small-free would be the folder"),
+        "{told}"
+    );
+    let out = folder.path().join("none.npy");
+    let other = ["--model", "mdm-huge", "--to", "positions", "-o", path(&out)];
+    let told = fails(1, &[&["generate", "a person walks"][..], &other].concat());
+    let expected = "mdm-huge: expected mdm-small, mdm-small-free, a folder";
+    assert!(told.contains(expected), "{told}");
+    assert!(!out.exists());
+}
