@@ -70,7 +70,7 @@ fn embedded_networks_go_by_name() {
         let few = ["--seconds", "1", "--steps", "3", "--to", "positions"];
         let output = assert_cmd::Command::cargo_bin("physique")
             .unwrap()
-            .args(&[&text[..], &few, asked].concat())
+            .args([&text[..], &few, asked].concat())
             .current_dir(folder.path())
             .output()
             .unwrap();
